@@ -39,11 +39,9 @@ if TYPE_CHECKING:
     from .limbs import joined_limbs as joined_limbs
     from .limbs import limbs_of_bones as limbs_of_bones
     from .limbs import placed_limbs as placed_limbs
-    from .limbs.frames import pose_frames as pose_frames
     from .loading import loading_steps as loading_steps
     from .mesh.ball import ball as ball
     from .mesh.edge_distances import edge_distances as edge_distances
-    from .mesh.edge_distances import nearest_distances as nearest_distances
     from .mesh.rest_measures import triangle_areas_and_normals as triangle_areas_and_normals
     from .meshes import stylize_mesh as stylize_mesh
     from .normal_capture import NormalCapture as NormalCapture
@@ -89,10 +87,9 @@ else:
         "frames.sequence": "FrameSequence SequenceState",
         "frames.steadiness": "MOST_JUMPS Frames frame_of least_width",
         "limbs": "KnownLimbs joined_limbs limbs_of_bones placed_limbs",
-        "limbs.frames": "pose_frames",
         "loading": "loading_steps",
         "mesh.ball": "ball",
-        "mesh.edge_distances": "edge_distances nearest_distances",
+        "mesh.edge_distances": "edge_distances",
         "mesh.rest_measures": "triangle_areas_and_normals",
         "meshes": "stylize_mesh",
         "normal_capture": "NormalCapture",
@@ -139,7 +136,6 @@ else:
         return sorted({*__all__, "__version__", *(x for x in globals() if x.startswith("__"))})
 
     def _version():
-        """Return the version of the installed package; the extension's is in its manifest."""
         from importlib.metadata import PackageNotFoundError, version
 
         try:

@@ -8,10 +8,6 @@ from dataclasses import dataclass
 class Energy:
     """Energies in the unit box (divide lengths by the largest extent of the mesh).
 
-    See Also
-    --------
-    Stylization.energy_of : Returns the energy of a given shape.
-
     Examples
     --------
     >>> from solver import Energy

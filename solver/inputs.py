@@ -157,13 +157,11 @@ def refuse_mask(values: Any, name: str) -> None:
 
 
 def _short(value: Any) -> str:
-    """Return a number as it is written, and what anything else is."""
     is_number = isinstance(value, bool | int | float | np.generic)
     return f"{value}" if is_number else _kind(value)
 
 
 def _kind(value: Any) -> str:
-    """Return what a value is, in a word."""
     if value is None:
         return "None"
     is_array = isinstance(value, np.ndarray | np.generic | list | tuple)

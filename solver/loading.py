@@ -10,19 +10,10 @@ from .optional_packages import optional_package
 def loading_steps(device: Device = "auto") -> Iterator[None]:
     """Import packages, start the engine and load its kernels, one step at a time.
 
-    The caller can do something else between two steps, such as drawing. What is missing or does
-    not work is left to the run that needs it, which reports it.
-
-    Parameters
-    ----------
-    device : {"auto", "cpu", "gpu", "numpy"}
-        The device of the run to come.
-
-    Yields
-    ------
-    None
-        After each step: of a tenth to half of a second, the last of twice that where kernels have
-        not been compiled on this machine before.
+    `device`: of the run to come. Between two steps, of a tenth to half of a second, the caller can
+    do something else, such as drawing; the last takes twice that where kernels have not been
+    compiled on this machine before. What is missing or does not work is left to the run that needs
+    it, which reports it.
 
     Examples
     --------

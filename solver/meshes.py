@@ -31,7 +31,6 @@ class Part(NamedTuple):
 def _with_arguments_of(
     function: Callable[Concatenate[ArrayLike, Faces, P], object],
 ) -> Callable[[Callable[..., Any]], Callable[Concatenate[M, P], M]]:
-    """Tell type checkers that a function of a mesh takes what another one of V and F does."""
     return lambda decorated: decorated
 
 
@@ -48,10 +47,8 @@ def stylize_mesh(mesh: M, cubeness: ArrayLike = 0.4, pinned: ArrayLike = (), **o
         The meshes of a scene are solved together, where it places them.
     cubeness : float or (n,) numpy array
         As for `stylize`; the vertices of a scene are those of its nodes, in their order.
-    pinned : (k,) numpy int array or (n,) numpy bool array
+    pinned, **options
         As for `stylize`.
-    **options
-        All other arguments of `stylize`.
 
     Returns
     -------
@@ -62,10 +59,6 @@ def stylize_mesh(mesh: M, cubeness: ArrayLike = 0.4, pinned: ArrayLike = (), **o
     ------
     CubicCraftError
         The mesh is of another type or has no faces, or as for `stylize`.
-
-    See Also
-    --------
-    stylize : For arrays; also returns the energy and whether the run has converged.
 
     Examples
     --------

@@ -28,14 +28,9 @@ _SMALLEST = 1e-6  # of an interpolated normal, before it gets its length
 
 
 class NormalCapture:
-    """A map of unit vectors.
+    """A map of unit vectors: directions (k,3), and which way a surface that faces so should face.
 
-    Parameters
-    ----------
-    directions : (k,3) array
-        Of any length; where one or its normal is zero, it is left out.
-    normals : (k,3) array
-        Which way a surface that faces in each of the directions should face.
+    They may be of any length; where one or its normal is zero, it is left out.
 
     Raises
     ------
@@ -161,7 +156,6 @@ def _hull(d):
 
 
 def _merged(d, n):
-    """Return the means of directions and normals in small cells."""
     _, cell = np.unique(np.floor(d / _CELL).astype(np.int64), axis=0, return_inverse=True)
     cell = cell.ravel()
     sums = [np.stack([np.bincount(cell, x) for x in values.T], axis=1) for values in (d, n)]

@@ -15,7 +15,7 @@ from .normal_capture import NormalCapture
 from .options import SolverOptions
 from .pose import Pose
 from .preparation import rest_mesh
-from .progress_bar import progress_bar
+from .progress import progress_bar
 from .proxy import PAPER, ProxyOptions
 from .result import Result
 from .runner import OnIteration, Run
@@ -81,22 +81,10 @@ def stylize(
         with `PAPER`.
     form : str, Polytope or sequence of them, optional
         What a ball would become, such as "octahedron"; by default the cube. `styles.forms` has all.
-    form_of : (n,) numpy int array, optional
-        Which of several forms each vertex has.
-    orientation : (3,3) or (n,3,3) numpy array, optional
-        See `Style`.
-    detail_strength : float or (n,) numpy array
-        How high details stand out, relative to those at rest; see `ProxyOptions.detail`.
-    targets : (n,3) numpy array, optional
-        Where the pinned vertices go; by default they stay.
-    limbs : KnownLimbs, optional
-        Limbs that are known, as from bones; see `Pose`.
-    capture : NormalCapture or sequence of NormalCaptures, optional
-        How the normals should turn.
-    capture_strength : float or (n,) numpy array
-        How strongly they do.
-    capture_of : (n,) numpy int array, optional
-        Which of several captures each vertex has.
+    form_of, orientation, detail_strength, capture, capture_strength, capture_of
+        As of `Style`.
+    targets, limbs
+        As of `Pose`: where the pinned vertices go, and limbs that are known.
     max_iterations : int
         Limit, even if the run has not converged.
     tolerance : float
@@ -106,14 +94,8 @@ def stylize(
         true value cancels the run.
     progress : bool
         Whether to show a progress bar on standard error.
-    device : {"auto", "cpu", "gpu", "numpy"}
-        What computes; see `SolverOptions`, also for all that follow.
-    precision : "f64" or "f32", optional
-        Of the local step in Taichi.
-    admm : AdmmOptions, optional
-        Where the exact local step is not used.
-    is_accelerated : bool
-        False for the plain iteration.
+    device, precision, admm, is_accelerated
+        As of `SolverOptions`: what computes, and how.
 
     Returns
     -------
@@ -123,12 +105,6 @@ def stylize(
     ------
     CubicCraftError
         The mesh or an option is invalid; the message gives the reason.
-
-    See Also
-    --------
-    stylize_mesh : The same for a mesh of trimesh.
-    run : The same for a prepared Stylization.
-    auto_orient : Finds an orientation for ``orientation``.
 
     Notes
     -----
@@ -194,15 +170,8 @@ def run(
     Parameters
     ----------
     stylization : Stylization
-    max_iterations : int
-        Limit, even if the run has not converged.
-    tolerance : float
-        See `StopRule`.
-    on_iteration : callable, optional
-        Called with the Stylization after each iteration, also on coarser meshes (`is_coarse`); a
-        true value cancels the run.
-    progress : bool
-        Whether to show a progress bar on standard error.
+    max_iterations, tolerance, on_iteration, progress
+        As for `stylize`.
 
     Returns
     -------
@@ -212,11 +181,6 @@ def run(
     ------
     CubicCraftError
         The tolerance is not positive, or max_iterations is no whole number from 1.
-
-    See Also
-    --------
-    stylize : The same for a mesh, in one call.
-    Run : The same, phase by phase.
 
     Examples
     --------

@@ -10,17 +10,7 @@ from .styles.admm import AdmmOptions
 
 @dataclass(frozen=True, kw_only=True)
 class SolverOptions:
-    """How a shape is solved.
-
-    Raises
-    ------
-    CubicCraftError
-        An option has another type. That a device is not available is found by the `Stylization`.
-
-    See Also
-    --------
-    Stylization : Solves with these options.
-    ProxyOptions : How the surface is prepared before.
+    """How a shape is solved, by a `Stylization`, which also finds whether the device is available.
 
     Examples
     --------

@@ -19,15 +19,7 @@ from .values import Value
 class Pose(Value):
     """Where the handles of a `Setup` go, and how the limbs lie that are known.
 
-    Raises
-    ------
-    CubicCraftError
-        The limbs are of another type. A `Stylization` also refuses targets and matrices that do not
-        fit its setup.
-
-    See Also
-    --------
-    Stylization : Is begun in a pose, and moved to others.
+    A `Stylization` is begun in a pose, and refuses one that does not fit its setup.
 
     Examples
     --------
@@ -60,10 +52,7 @@ class Pose(Value):
     def targets_of(self, setup: Setup) -> FloatArray:
         """Return the targets (N,3) of the vertices of a setup; only those of pins matter.
 
-        Raises
-        ------
-        CubicCraftError
-            They have another shape, or that of a pinned vertex is not finite.
+        Raises CubicCraftError: they have another shape, or one of a pinned vertex is not finite.
         """
         at_rest = setup.rest.input_positions
         if self.targets is None:

@@ -57,10 +57,6 @@ def rest_mesh(
     CubicCraftError
         The mesh is invalid, or needs more memory than is free.
 
-    See Also
-    --------
-    Setup : The next step, for a set of pinned vertices.
-
     Notes
     -----
     The weights are the cotangents of Pinkall and Polthier, "Computing Discrete Minimal Surfaces and
@@ -90,7 +86,8 @@ def rest_mesh(
     surface = surface_of(input_positions, F, proxy, faces)
     V, F = surface.V, surface.F
     triangles = Triangles(V, F)
-    areas, normals = areas_and_normals(V, F, triangles.measures)
+    measures = triangles.areas, triangles.normals
+    areas, normals = areas_and_normals(V, F, measures)
     C = cotangents(V, F)
     parts = topology(F, len(V))
     with ThreadPoolExecutor(1) as beside:  # most of the search lets other threads compute
@@ -102,7 +99,7 @@ def rest_mesh(
         smooth, shares = np.ones(len(V)), np.ones(len(V))
         is_flat = np.zeros(len(V), dtype=bool)
         if proxy.refine:
-            smooth = smoothness(F, C, triangles.measures, len(V))
+            smooth = smoothness(F, C, measures, len(V))
             shares = cubic_shares(triangles, smooth, areas)
             factors = stiffness(triangles, parts.part)
             is_flat[F[factors < 1.0]] = True

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The progress of a run as one number, for a progress bar."""
+"""The progress of a run as one number, and a bar of it for terminals and notebooks."""
 
 import math
+import sys
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 
 from .stylization import Stylization
+
+_WIDTH = 30  # characters of a bar
 
 
 class Progress:
@@ -12,17 +17,6 @@ class Progress:
     The displacement per iteration falls almost exponentially, so its logarithm, between the largest
     since the second iteration and the tolerance, is a better estimate than the number of
     iterations, whose end is not known. The first one moves much farther and says nothing.
-
-    Parameters
-    ----------
-    max_iterations : int
-        As in `run`.
-    tolerance : float
-        As in `run`.
-
-    See Also
-    --------
-    StopRule : The test that ends the run.
 
     Examples
     --------
@@ -62,3 +56,30 @@ class Progress:
                 fraction = max(fraction, min(by_size, 0.99))
         self._fraction = max(self._fraction, min(fraction, 1.0))
         return self._fraction
+
+
+@contextmanager
+def progress_bar(
+    max_iterations: int, tolerance: float
+) -> Generator[Callable[[Stylization], None], None, None]:
+    """Give a function to call after each iteration, which draws a bar on standard error.
+
+    The bar ends, full or not, with the block.
+    """
+    progress, shown = Progress(max_iterations, tolerance), ""
+
+    def update(stylization: Stylization) -> None:
+        nonlocal shown
+        done = progress.update(stylization)
+        bar = ("#" * round(_WIDTH * done)).ljust(_WIDTH, ".")
+        line = f"\r{done:4.0%} [{bar}] iteration {stylization.iterations}"
+        if line != shown and sys.stderr is not None:  # a program without a console has none
+            shown = line
+            sys.stderr.write(line)
+            sys.stderr.flush()
+
+    try:
+        yield update
+    finally:
+        if shown:
+            sys.stderr.write("\n")

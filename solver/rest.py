@@ -47,12 +47,8 @@ _OF_THE_SURFACE = (
 class RestMesh(Value):
     """The rest shape in the unit box: the proxy of the input, without its loose vertices.
 
-    The arrays are indexed by the `n` vertices that are solved; `input_map` maps between them and
-    the `N` vertices of the input.
-
-    See Also
-    --------
-    rest_mesh : Builds it.
+    `rest_mesh` builds it. The arrays are indexed by the `n` vertices that are solved; `input_map`
+    maps between them and the `N` vertices of the input.
 
     Examples
     --------
@@ -347,26 +343,16 @@ class RestMesh(Value):
 
     def linked(self, links: Links) -> RestMesh:
         """Return the mesh with further links, which change nothing in what covers what."""
-        to_neighbors = self.to_neighbors.joined(links)
-        linked = replace(
-            self,
-            topology=self.topology.linked(to_neighbors.pairs()),
-            to_neighbors=to_neighbors,
-            matrices=self.matrices.with_links(self.V, links),
-        )
+        linked = self._linked(links)
         linked.__dict__["linked_share"] = self.linked_share
         known = {name: self.__dict__[name] for name in _OF_THE_SURFACE if name in self.__dict__}
         linked.__dict__.update(known)
         return linked
 
     def posed(self, input_positions: ArrayLike) -> RestMesh:
-        """Return the same mesh in another pose, with all weights and links of this one.
+        """Return the same mesh in another pose (N,3), with all weights and links of this one.
 
         Its Laplacian is the same, so what has been factorized can be reused.
-
-        Parameters
-        ----------
-        input_positions : (N,3) numpy array
         """
         positions = real_numbers(input_positions, "positions").copy()
         V = self.input_map.points(self.box.to_unit(positions))
@@ -421,13 +407,11 @@ class RestMesh(Value):
         return Coarsening(coarse._linked(self.links.mapped(at)), cluster)
 
     def _linked(self, links):
-        """Return the mesh with other links."""
-        if not len(links):
-            return self
+        to_neighbors = self.to_neighbors.joined(links)
         return replace(
             self,
-            topology=self.topology.linked(links.pairs()),
-            to_neighbors=links,
+            topology=self.topology.linked(to_neighbors.pairs()),
+            to_neighbors=to_neighbors,
             matrices=self.matrices.with_links(self.V, links),
         )
 

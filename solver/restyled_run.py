@@ -37,8 +37,7 @@ class RestyledRun(Run):
     """
 
     def __init__(self, run: Run, soft: Stylization, *, keeps_sides: bool):
-        hard = run.hard
-        assert hard is not None
+        hard = run._present_hard
         self.__dict__.update(run.__dict__)
         self.reason, self._seconds, self._apart, self._hard_end = None, 0.0, None, None
         held = run._held if isinstance(run, RestyledRun) else hard.setup
@@ -68,9 +67,7 @@ class RestyledRun(Run):
         self._phase = RestyledRun._find_sides if is_due else RestyledRun._follow
 
     def _find_sides(self):
-        hard = self.hard
-        assert hard is not None
-        self._found = hard.found_anew(self.soft)
+        self._found = self._present_hard.found_anew(self.soft)
         self._phase = RestyledRun._take_sides if self._held else RestyledRun._hold
 
     def _hold(self):
@@ -79,22 +76,19 @@ class RestyledRun(Run):
         self._phase = RestyledRun._take_sides
 
     def _take_sides(self):
-        hard = self.hard
-        assert hard is not None and self._found is not None and self._held is not None
-        self.stylization = hard.go_on_with(self.soft, self._found, self._held)
+        assert self._found is not None and self._held is not None
+        self.stylization = self._present_hard.go_on_with(self.soft, self._found, self._held)
         self._is_to_find = False
         self._phase = RestyledRun._hard_step  # its rotations fit
 
     def _follow(self):
-        hard = self.hard
-        assert hard is not None
+        hard = self._present_hard
         hard.follow(self.soft)
         hard.local_step()
         self._phase = RestyledRun._hard_step
 
     def _hard_step(self):
-        hard = self.hard
-        assert hard is not None
+        hard = self._present_hard
         hard.global_step()
         if self._found is not None:
             hard.straighten_borders(may_cross=True)

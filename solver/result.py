@@ -17,10 +17,6 @@ class Result(Value):
 
     Two results are equal if they agree bit for bit, apart from the times that they took.
 
-    See Also
-    --------
-    stylize, run : Return it.
-
     Examples
     --------
     >>> import numpy as np

@@ -36,23 +36,7 @@ MIN_CURVATURE = 1e-4
 
 
 def fit_rotations(M, guess):
-    """Return the best rotations of the matrices M.
-
-    Parameters
-    ----------
-    M : (n,3,3) numpy array
-    guess : (n,3,3) numpy array
-        Rotations to start from.
-
-    Returns
-    -------
-    R : (n,3,3) numpy array
-        In SO(3), each maximizing tr(R M).
-
-    See Also
-    --------
-    svd_rotations : The same without a guess.
-    """
+    """Return R (n,3,3), each maximizing tr(R M) over SO(3), for M (n,3,3) and rotations near R."""
     R = guess.copy()
     todo = np.arange(len(M))
     uncertified = []
@@ -62,7 +46,9 @@ def fit_rotations(M, guess):
         step, is_safe = _newton_step(R[todo] @ M[todo])
         uncertified.append(todo[~is_safe])
         todo, step = todo[is_safe], step[is_safe]
-        R[todo] = _cayley(step) @ R[todo]
+        x, y, z = 0.5 * step.T  # the quaternions (1, step/2), normalized
+        turns = from_columns(turn(2.0 / (1.0 + x * x + y * y + z * z), 1.0, x, y, z))
+        R[todo] = turns @ R[todo]
         todo = todo[(step * step).sum(1) > ANGLE_TOLERANCE**2]
     others = np.concatenate([*uncertified, todo])
     R[others] = svd_rotations(M[others])
@@ -70,19 +56,7 @@ def fit_rotations(M, guess):
 
 
 def svd_rotations(M: FloatArray) -> FloatArray:
-    """Return argmax tr(R M) over SO(3) for each M, by singular value decompositions.
-
-    Parameters
-    ----------
-    M : (n,3,3) numpy array
-
-    Returns
-    -------
-    R : (n,3,3) numpy array
-
-    See Also
-    --------
-    fit_rotations : Faster with a good guess.
+    """Return argmax tr(R M) over SO(3), (n,3,3), of M (n,3,3) by singular value decompositions.
 
     Notes
     -----
@@ -148,9 +122,3 @@ def _newton_step(M):
     is_safe = is_definite(MIN_CURVATURE, *H, *H_adjugate)
     step = from_columns(times(*H_adjugate, *axial(*G)))
     return step * (1.0 / np.where(is_safe, determinant(*H, *H_adjugate), 1.0))[:, None], is_safe
-
-
-def _cayley(step):
-    """Return the rotations (n,3,3) of the quaternions (1, step/2), normalized."""
-    x, y, z = 0.5 * step.T
-    return from_columns(turn(2.0 / (1.0 + x * x + y * y + z * z), 1.0, x, y, z))

@@ -47,28 +47,8 @@ class Run:
     """A run that is advanced phase by phase, so that the caller can do other work in between.
 
     However it is sliced, the result is identical to that of `run`, bit for bit.
-
-    Parameters
-    ----------
-    stylization : Stylization
-    max_iterations : int
-        Limit, even if the run has not converged.
-    tolerance : float
-        See `StopRule`.
-
-    Attributes
-    ----------
-    reason : str or None
-        None while the run is not finished, then as in `Result`.
-
-    Raises
-    ------
-    CubicCraftError
-        The tolerance is not positive, or max_iterations is no whole number from 1.
-
-    See Also
-    --------
-    run : The same in one call.
+    The arguments are those of `run`. `reason` is None while it is not finished, then as in
+    `Result`.
 
     Examples
     --------
@@ -157,6 +137,11 @@ class Run:
         return self.stylization if isinstance(self.stylization, HardStylization) else None
 
     @property
+    def _present_hard(self) -> HardStylization:
+        assert isinstance(self.stylization, HardStylization)
+        return self.stylization
+
+    @property
     def iterations(self) -> int:
         """Number of iterations done, including those on coarser meshes, up to the soft shape."""
         coarse = self._coarse_iterations if self._coarse is None else self._coarse.iterations
@@ -229,7 +214,6 @@ class Run:
         self._phase = Run._local_step
 
     def _ended(self, reason: Reason) -> None:
-        """Decide what follows when the iteration has come to its end."""
         if self._apart is None:
             self._end = reason
             self._phase = Run._harden_or_end
@@ -281,8 +265,7 @@ class Run:
         self._phase = Run._hard_global_step
 
     def _hard_global_step(self) -> None:
-        hard = self.hard
-        assert hard is not None
+        hard = self._present_hard
         hard.global_step()
         self._phase = Run._hard_local_step
         done = hard.iterations - self.soft.iterations
@@ -303,8 +286,7 @@ class Run:
 
     def _part(self, apart: KeepApart) -> None:
         """Push apart what has come to cross: to be left soft, it takes what is around it along."""
-        hard = self.hard
-        assert hard is not None
+        hard = self._present_hard
         if len(apart.look(hard)):
             self.stylization = hard.moved_to(apart.parted(hard))
         soften = partial(Run._soften, last=apart, is_between_parts=apart.is_between_parts)
@@ -322,8 +304,8 @@ class Run:
         What is soft may cross what is still crisp beside it: a try that does not help is followed
         by others. Where it takes too much of the crispness, parts may press into each other.
         """
-        looked, hard = copy(last), self.hard
-        assert hard is not None and self._hard_end is not None
+        looked, hard = copy(last), self._present_hard
+        assert self._hard_end is not None
         crossing, tries = looked.look(hard), tries + 1
         if len(crossing) < fewest:
             self._apart, self._before = looked, hard

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .aliases import BoolArray, FloatArray
+from .aliases import FloatArray
 from .errors import CubicCraftError
 from .global_step.holds import HoldFields
 from .global_step.step import GlobalStep
@@ -47,25 +47,15 @@ class Setup(Stored):
 
     Attributes
     ----------
-    pinned_input : (k,) numpy int array
-        The pinned vertices, including loose ones.
-    pinned : (j,) numpy int array
-        Those that are not loose, as indices into ``rest.V``.
+    pinned_input, pinned : (k,) and (j,) numpy int arrays
+        The pinned vertices, and those that are not loose, as indices into ``rest.V``.
     has_pin : (component_count,) numpy bool array
         Components with a pinned vertex.
-    mirrors : tuple of Mirror
-        Of the solved vertices, in the unit box.
-    hold_fields : HoldFields or None
 
     Raises
     ------
     CubicCraftError
         An argument has another type or shape, an index is out of range, or no vertex is left free.
-
-    See Also
-    --------
-    rest_mesh : The step before.
-    Stylization : The next step, for a cubeness and an orientation.
 
     Examples
     --------
@@ -130,26 +120,13 @@ class Setup(Stored):
         values.append(("held_groups", 0 if holds is None else len(holds.weights)))
         return described(Setup, values)
 
-    @property
-    def is_anchored(self) -> BoolArray:
-        """(component_count,) bool array, components with a pinned vertex or a held group.
-
-        The other components float; they stay in place as a whole.
-        """
-        return self.global_step.is_anchored
-
     def posed(self, input_positions: ArrayLike) -> Setup:
-        """Return the same setup in another pose of the mesh.
+        """Return the same setup in another pose (N,3) of the mesh.
 
         The factorization is reused, see `RestMesh.posed`. Pinned vertices and groups keep the place
         that they have in that pose.
-
-        Parameters
-        ----------
-        input_positions : (N,3) numpy array
         """
-        other = copy(self)
-        other.__dict__.pop("coarse", None)
+        other = self._without_coarse()
         other.rest = self.rest.posed(input_positions)
         other.global_step = self.global_step.posed(other.rest)
         if self.hold_fields is not None:
@@ -170,13 +147,9 @@ class Setup(Stored):
 
         The factorization is reused. A Stylization is given the goal of each group.
 
-        Parameters
-        ----------
-        weights : sequence of (N,) numpy arrays
-            Of the vertices of the input.
+        `weights`: sequence of (N,), of the vertices of the input.
         """
-        other = copy(self)
-        other.__dict__.pop("coarse", None)
+        other = self._without_coarse()
         other.hold_fields = HoldFields(self, weights)
         other.global_step = self.global_step.anchored(other.hold_fields.components)
         return other
@@ -186,8 +159,7 @@ class Setup(Stored):
 
         Pins, held groups and mirrors stay in force.
         """
-        other = copy(self)
-        other.__dict__.pop("coarse", None)
+        other = self._without_coarse()
         other.rest = rest.linked(links)
         other.has_pin = np.zeros(other.rest.topology.component_count, dtype=bool)
         other.has_pin[other.rest.topology.component[self.pinned]] = True
@@ -200,17 +172,18 @@ class Setup(Stored):
     def held(self, hold: FloatArray) -> Setup:
         """Return the setup whose global step draws vertices to given places, factorized anew.
 
-        Parameters
-        ----------
-        hold : (n,) array
-            How firmly, see `GlobalStep`.
+        `hold`: (n,), how firmly, see `GlobalStep`.
         """
-        other = copy(self)
-        other.__dict__.pop("coarse", None)
+        other = self._without_coarse()
         other.has_pin = np.ones_like(self.has_pin)  # no component floats
         other.global_step = GlobalStep(self.rest, self.pinned, hold)
         if self.hold_fields is not None:
             other.hold_fields = HoldFields(other, self.hold_fields.weights)
+        return other
+
+    def _without_coarse(self):
+        other = copy(self)
+        other.__dict__.pop("coarse", None)
         return other
 
     def _solved(self, mirrors):

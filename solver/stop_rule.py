@@ -28,10 +28,6 @@ class StopRule:
         Whether parts are linked. One that hangs by a corner, such as a leaf, may swing for a
         thousand iterations, and carries next to none of the energy: it is not waited for.
 
-    See Also
-    --------
-    Progress : An estimate of the progress until then.
-
     Examples
     --------
     >>> from solver import StopRule
@@ -51,14 +47,8 @@ class StopRule:
     def is_converged(self, energy: float, displacement: float, distance: float) -> bool:
         """Record one iteration and return whether it was the last.
 
-        Parameters
-        ----------
-        energy : float
-            Total energy.
-        displacement : float
-            Largest displacement of a vertex in this iteration.
-        distance : float
-            Largest distance of a vertex from its rest position.
+        `energy`: the total. `displacement`, `distance`: the largest of any vertex, in this
+        iteration and from rest.
         """
         self._energies.append(energy)
         if displacement > self._tolerance * distance + self._resolution:

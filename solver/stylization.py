@@ -49,9 +49,6 @@ class Stylization(Stored):
 
     Attributes
     ----------
-    setup, options
-        As given.
-    rest : RestMesh
     is_coarse : bool
         Whether the mesh is a coarser one that provides the start for another, see `coarser`.
     is_started : bool
@@ -70,10 +67,6 @@ class Stylization(Stored):
     CubicCraftError
         The style or the pose does not fit the setup, a value is invalid, or the device is not
         available.
-
-    See Also
-    --------
-    run, Run : Iterate it to the end.
 
     Notes
     -----
@@ -210,19 +203,10 @@ class Stylization(Stored):
         It begins with the present shape, in which each component is shifted as at rest, and each
         vertex moved as beside that, turned by its rotation. It needs few steps if the rest shape
         has hardly changed. Weights, limbs and how much normals count stay as they are, so the end
-        is only near that of a new run.
+        is only near that of a new run. `setup`: of `Setup.posed`. `pose`: its limbs are not looked
+        at.
 
-        Parameters
-        ----------
-        setup : Setup
-            Of `Setup.posed`.
-        pose : Pose, optional
-            As of a new one, but its limbs are not looked at.
-
-        Raises
-        ------
-        CubicCraftError
-            The pose does not fit the setup.
+        Raises CubicCraftError: the pose does not fit the setup.
         """
         before, after = self.rest, setup.rest
         pose = Pose() if pose is None else instance(pose, "pose", Pose)
@@ -310,15 +294,6 @@ class Stylization(Stored):
         """The Style at the vertices of `rest`."""
         return self._style
 
-    @property
-    def orientations(self) -> FloatArray:
-        """(N,3,3) rotations into the frame of the form, of the vertices of the input."""
-        rest = self.rest
-        found = np.tile(self._style.Q[0], (len(rest.input_positions), 1, 1))
-        used, place = rest.place
-        found[used] = np.broadcast_to(self._style.Q, (len(rest.V), 3, 3))[place]
-        return found
-
     def _momentum(self):
         return Momentum(self.rest.topology.component_count) if self.options.is_accelerated else None
 
@@ -361,19 +336,10 @@ class Stylization(Stored):
         return self.energy
 
     def energy_of(self, positions: ArrayLike, steps: int = 20) -> Energy:
-        """Return the Energy of a given shape, with rotations that fit it.
+        """Return the Energy of a given shape (N,3), which replaces the state of the run.
 
-        Parameters
-        ----------
-        positions : (N,3) numpy array
-            In the units of the input. They replace the state of the run.
-        steps : int
-            Number of local steps; each starts from the rotations of the previous one, and the best
-            counts.
-
-        Returns
-        -------
-        Energy
+        With rotations that fit it: the best of as many local steps, each of which starts from those
+        of the step before.
         """
         solved = self.rest.input_map.spread(real_numbers(positions, "positions"))
         self._motion.put(self.rest.box.to_unit(solved))

@@ -31,11 +31,6 @@ MATCHING = 1e-3
 class Mirror(Value):
     """A reflection x -> A x + b, and the vertices that are images of each other.
 
-    See Also
-    --------
-    partners : Finds the vertices.
-    Setup : Keeps the halves symmetric.
-
     Examples
     --------
     >>> import numpy as np
@@ -98,25 +93,11 @@ class Mirror(Value):
 
 
 def partners(V: FloatArray, image: FloatArray, tolerance: float) -> IntArray:
-    """Find the vertices that are images of each other.
+    """Return the vertices (n,) that are images of each other, as `Mirror.partner`.
 
-    Parameters
-    ----------
-    V : (n,3) numpy array
-    image : (n,3) numpy array
-        The reflected vertices.
-    tolerance : float
-        Largest distance between a vertex and the image of its partner.
-
-    Returns
-    -------
-    (n,) numpy int array
-        As `Mirror.partner`. Each vertex is the nearest to the image of its partner; of several at
-        the same place, as along the seams of a UV map, the first is paired with the first.
-
-    See Also
-    --------
-    Mirror : Contains the result.
+    `V`, `image`: (n,3), the vertices and these reflected. `tolerance`: largest distance between a
+    vertex and the image of its partner. Each is the nearest to that image; of several at the same
+    place, as along the seams of a UV map, the first is paired with the first.
 
     Examples
     --------
@@ -138,10 +119,6 @@ def partners(V: FloatArray, image: FloatArray, tolerance: float) -> IntArray:
     found = np.append(found, len(places))  # as the image of no vertex
     is_mutual = found[found[:-1]] == np.arange(len(places))
     found = np.where(is_mutual, found[:-1], NO_PARTNER)
-    if len(places) == len(V):  # their order is that of the places
-        result = np.full(len(V), NO_PARTNER)
-        result[first] = np.where(found == NO_PARTNER, NO_PARTNER, first[found])
-        return result
     order = np.argsort(place, kind="stable")
     begin = np.append(0, np.cumsum(count))
     rank = np.empty(len(V), dtype=np.intp)
@@ -156,19 +133,7 @@ def partners(V: FloatArray, image: FloatArray, tolerance: float) -> IntArray:
 def commuting(mirrors: Sequence[Mirror]) -> tuple[Mirror, ...]:
     """Return mirrors without the pairs that would break the symmetry about another plane.
 
-    All of them can then be imposed one after the other.
-
-    Parameters
-    ----------
-    mirrors : sequence of Mirror
-
-    Returns
-    -------
-    tuple of Mirror
-
-    See Also
-    --------
-    Setup : Uses them.
+    All of them can then be imposed one after the other, as in a `Setup`.
 
     Examples
     --------

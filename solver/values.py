@@ -19,16 +19,6 @@ class Value:
     """A base of dataclasses whose fields may be arrays; they have to say ``eq=False, repr=False``.
 
     Two are equal if they are of the same class and all fields that are compared are, bit for bit.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from solver import Flattened, flatten_facets
-    >>> V = np.array([[0.0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 0.1]])
-    >>> F = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
-    >>> one, other = (flatten_facets(V, F, [[0, 0, 1]], 0.3, 0.2) for _ in range(2))
-    >>> one == other
-    True
     """
 
     def __eq__(self, other: object) -> bool:

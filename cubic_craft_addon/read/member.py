@@ -177,7 +177,7 @@ def read_member(
 def _with_cage(shape, obj):
     """Return a known shape; its modifiers and creases may have changed."""
     cage = read_cage(obj)
-    is_same = cage is None if shape.cage is None else shape.cage.is_like(cage)
+    is_same = shape.cage == cage
     return shape if is_same else replace(shape, cage=cage)
 
 

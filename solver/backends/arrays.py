@@ -7,15 +7,10 @@ from ..global_step.multigrid import has_multigrid
 
 
 class HostArrays:
-    """Arrays of NumPy; `DeviceArrays` has the same for those on a device.
-
-    Attributes
-    ----------
-    is_resident : bool
-        Whether they lie on a device and never come back as a whole in an iteration.
-    """
+    """Arrays of NumPy; `DeviceArrays` has the same for those on a device."""
 
     is_resident = False
+    """whether they lie on a device and do not come back as a whole in an iteration"""
 
     def check(self):
         """Make sure that the arrays still exist."""

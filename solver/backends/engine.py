@@ -60,7 +60,6 @@ def environment(name, value):
 
 @contextlib.contextmanager
 def _without_deepbind():
-    """Filter RTLD_DEEPBIND out of the flags with which libraries are loaded, on Linux."""
     if sys.platform != "linux":
         yield
         return

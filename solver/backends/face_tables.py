@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tables of `Faces` as kernels take them."""
 
-from typing import Any, NamedTuple
-
 import numpy as np
 
 NUMBERS = 7
@@ -11,34 +9,18 @@ its vertices, for a vertex itself, for a facet one of its vertices; then for a v
 `between` its own numbers begin"""
 
 
-class FaceTables(NamedTuple):
-    """The arrays of `Faces` as a kernel takes them."""
-
-    frames: Any
-    """(k,3,3) in rows the point, the axis, and the length with two zeros"""
-    numbers: Any
-    """(7k,) int, see `NUMBERS`"""
-    targets: Any
-    """(l,) int"""
-    ways: Any
-    """(l,3)"""
-    between: Any
-    """(b,) int"""
-    edge_start: int
-    facet_start: int
-
-
 def face_tables(faces, keep, keep_integers):
-    """Return the FaceTables of Faces, or of none, which a kernel for cubes never reads.
+    """Return the tables of Faces, or of none, which a kernel for cubes never reads.
 
     `faces`: Faces or None. `keep`, `keep_integers`: callable, bring an array of real numbers, or of
-    integers, to where the kernels take it.
+    integers, to where the kernels take it. Returns `frames`: (k,3,3), in rows the point, the axis,
+    and the length with two zeros; `numbers`: (7k,) int, see `NUMBERS`; `targets`: (l,) int; `ways`:
+    (l,3); `between`: (b,) int; and where edges and facets begin.
     """
     if faces is None:
         nothing = keep_integers(np.zeros(1, np.int32))
-        return FaceTables(
-            keep(np.zeros((1, 3, 3))), nothing, nothing, keep(np.zeros((1, 3))), nothing, 0, 0
-        )
+        frames, ways = keep(np.zeros((1, 3, 3))), keep(np.zeros((1, 3)))
+        return frames, nothing, nothing, ways, nothing, 0, 0
     a = faces.arrays
     lengths = np.stack([a.lengths, 0 * a.lengths, 0 * a.lengths], axis=1)
     ends = np.tile(np.arange(len(a.points))[:, None], (1, 2))
@@ -48,12 +30,12 @@ def face_tables(faces, keep, keep_integers):
     starts = np.zeros((len(a.points), 1), int)
     starts[: faces.edge_start, 0] = faces.between_start
     numbers = np.concatenate([a.vertices, a.links, ends, starts], axis=1)
-    return FaceTables(
-        frames=keep(np.stack([a.points, a.axes, lengths], axis=1)),
-        numbers=keep_integers(numbers.ravel().astype(np.int32)),
-        targets=keep_integers(a.targets),
-        ways=keep(a.ways),
-        between=keep_integers(faces.between),
-        edge_start=faces.edge_start,
-        facet_start=faces.facet_start,
+    return (
+        keep(np.stack([a.points, a.axes, lengths], axis=1)),
+        keep_integers(numbers.ravel().astype(np.int32)),
+        keep_integers(a.targets),
+        keep(a.ways),
+        keep_integers(faces.between),
+        faces.edge_start,
+        faces.facet_start,
     )

@@ -20,27 +20,14 @@ SMALLEST_AREA = 1e-30
 class NumpyLocalStep:
     """Rotations from positions, and the right-hand side of the global step from rotations.
 
-    Parameters
-    ----------
-    rest : RestMesh
-    lam : (n,) float64 array
-        Cubeness per vertex.
-    Q : (n,3,3) or (1,3,3) float64 array
-        Orientation of the form: maps a vector into its frame.
-    options : AdmmOptions
-    form : Cube or Polytopes, optional
-        What the normals are drawn to.
-    captured : (n,4) float64 array, optional
-        Unit normals that they are drawn to besides, and how strongly, per area; see `LocalProblem`.
-    normals : (n,3) float64 array, optional
-        Unit normals at rest, or zero; by default those of the surface as it is.
+    `rest`: RestMesh. `lam`: (n,), cubeness. `Q`: (n,3,3) or (1,3,3), orientation of the form: maps
+    a vector into its frame. `options`: AdmmOptions. `form`: Cube or Polytopes, what the normals are
+    drawn to. `captured`: (n,4), optional, unit normals that they are drawn to besides, and how
+    strongly, per area; see `LocalProblem`. `normals`: (n,3), optional, unit normals at rest, or
+    zero; by default those of the surface as it is.
 
-    Attributes
-    ----------
-    R : (n,3,3) array
-        Rotations, the identity at first.
-    resolution : float
-        Distance in the unit box below which everything is rounding.
+    `R`: (n,3,3), rotations, the identity at first. `resolution`: distance in the unit box below
+    which everything is rounding.
     """
 
     device = "numpy"

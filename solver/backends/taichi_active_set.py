@@ -39,14 +39,9 @@ from .kernel_types import kernel_types, state_types
 
 
 class Kind:
-    """Numbers of one precision. Not a dataclass, of which Quadrants takes the fields apart.
+    """Numbers of one precision, ti.f64 or ti.f32, and the types of vectors and matrices of them.
 
-    Attributes
-    ----------
-    real : ti.f64 or ti.f32
-    vec3, vec4, mat3
-        Types of vectors and matrices of these numbers.
-    tolerances : Tolerances
+    Not a dataclass, of which Quadrants takes the fields apart.
     """
 
     def __init__(self, real):

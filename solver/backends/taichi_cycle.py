@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The V-cycles of `multigrid.py` in Taichi."""
 
-from functools import cache
 from itertools import accumulate
-from typing import Any
 
 import numpy as np
 
@@ -35,17 +33,14 @@ class TaichiCycle:
     The levels lie one after the other in the same arrays, so that a single kernel does all of them:
     to start a kernel on a GPU takes longer than the work of a coarse level.
 
-    `arrays`: where they run. `cycles`: how many; by default `ON_PROCESSOR` or `ON_DEVICE`.
-
-    Attributes
-    ----------
-    B, X : (n,4) float32 arrays
-        The scaled residual, to be filled in, and the scaled correction that `run` makes of it.
-        They go on with what belongs to the coarser levels.
+    `arrays`: where they run. `cycles`: how many; by default `ON_PROCESSOR` or `ON_DEVICE`. `B`,
+    `X`: (n,4) float32, the scaled residual, to be filled in, and the scaled correction that `run`
+    makes of it; they go on with what belongs to the coarser levels.
     """
 
     def __init__(self, multigrid, arrays, cycles=None):
         from .engine import ti
+        from .taichi_cycle_kernels import make_cycle, make_refining_kernels
 
         levels = multigrid.levels
         inverse = np.linalg.inv(multigrid.coarsest.toarray()).astype(np.float32)
@@ -61,7 +56,7 @@ class TaichiCycle:
         self.B, self.X, residual = (
             arrays.keep(np.zeros((starts[-1], 4), np.float32)) for _ in range(3)
         )
-        self._kernel = _kernel(len(levels))
+        self._kernel, self._refine = make_cycle(len(levels)), make_refining_kernels()
         self._arguments = (
             *map(arrays.keep, matrices),
             arrays.keep(inverse, of_numbers=True),
@@ -86,8 +81,8 @@ class TaichiCycle:
         calls = [(self._kernel, (*self._arguments, self._no_rows))]
         if self._refining:
             calls += [
-                (_refining_kernels().add, (*self._refining, 0, 1.0)),
-                (_refining_kernels().together, (*self._refining[-2:], 0, 1.0, 1.0)),
+                (self._refine.add, (*self._refining, 0, 1.0)),
+                (self._refine.together, (*self._refining[-2:], 0, 1.0, 1.0)),
             ]
         return calls
 
@@ -96,11 +91,11 @@ class TaichiCycle:
         *weights, last = map(float, self._weights)
         for weight in weights:
             self._kernel(*self._arguments, self._all_rows)
-            _refining_kernels().add(*self._refining, self._count, weight)
+            self._refine.add(*self._refining, self._count, weight)
         self._kernel(*self._arguments, self._all_rows)
         if weights:
             ends = self._count, last, float(self._factor)
-            _refining_kernels().together(*self._refining[-2:], *ends)
+            self._refine.together(*self._refining[-2:], *ends)
 
 
 def _stacked(matrices, columns, before=()):
@@ -117,17 +112,3 @@ def _stacked(matrices, columns, before=()):
         np.concatenate([np.zeros(0, np.int32), *indices]).astype(np.int32),
         np.concatenate([np.zeros(0, np.float32), *data]),
     )
-
-
-@cache
-def _kernel(level_count) -> Any:
-    from .taichi_cycle_kernels import make_cycle
-
-    return make_cycle(level_count)
-
-
-@cache
-def _refining_kernels() -> Any:
-    from .taichi_cycle_kernels import make_refining_kernels
-
-    return make_refining_kernels()

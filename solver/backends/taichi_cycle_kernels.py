@@ -8,6 +8,7 @@ four of them are read at once, which takes half the time of three. Sums run in a
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
 # pyright: reportIndexIssue=false
 
+from functools import cache
 from types import SimpleNamespace
 
 from .engine import ti
@@ -29,6 +30,7 @@ def row(
     return total
 
 
+@cache
 def make_cycle(level_count):
     """Return the kernel for so many levels above the coarsest.
 
@@ -84,6 +86,7 @@ def make_cycle(level_count):
     return cycle
 
 
+@cache
 def make_refining_kernels():
     """Return the kernels that come between V-cycles in a row, and after the last."""
 

@@ -2,7 +2,7 @@
 """The local problem of one vertex on the faces of a polytope, in Taichi, as `Polytopes` in NumPy.
 
 To import this imports the engine. These functions are compiled into the kernels
-that call them. The tables of all faces are given as `FaceTables` in the order of its fields.
+that call them. The tables of all faces are given as `face_tables` returns them.
 """
 
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false

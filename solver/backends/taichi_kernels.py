@@ -34,7 +34,7 @@ def make_kernels(real, width, is_captured=False, has_lanes=False):
     `real`: ti.f64 or ti.f32. `width`: of the states of vertices: 3 for the cube, 4 for polytopes.
     `is_captured`: whether normals are drawn to captured ones; else `captured` is not read.
     `has_lanes`: whether the processor computes a few vertices at once; for the cube, and not on a
-    GPU. The kernel is then not given `FaceTables`.
+    GPU. The kernel is then not given `face_tables`.
     """
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
     _, vectors4 = state_types(real, 4)
@@ -59,7 +59,7 @@ def make_kernels(real, width, is_captured=False, has_lanes=False):
         energies: vectors,  # per vertex: sum w |d|^2, and the `energy_terms` of a `LocalProblem`
         certified: integers,  # where 0, the rotation is the last one
         captured: vectors4,
-        frames: matrices,  # these are the fields of `FaceTables`
+        frames: matrices,  # as `face_tables` returns them
         numbers: integers,
         targets: integers,
         ways: vectors,

@@ -23,7 +23,7 @@ LANES = 4
 
 
 def make_local_step(kind, is_captured):
-    """Return the kernel `local_step` as `make_kernels` does, without `FaceTables`."""
+    """Return the kernel `local_step` as `make_kernels` does, without `face_tables`."""
     real = kind.real
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
     _, vectors4 = state_types(real, 4)

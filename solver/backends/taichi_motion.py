@@ -19,16 +19,11 @@ class TaichiMotion:
     at in NumPy. The positions lie where the arrays of the local step do.
 
     `setup`, `local`, `U`, `constraints`: as in `Motion`; the local step is one of Taichi.
-
-    Attributes
-    ----------
-    compile_seconds : float
-        As in `TaichiLocalStep`.
     """
 
     @alone
     def __init__(self, setup, local, U, constraints=()):
-        self._local, self._is_anchored = local, setup.is_anchored
+        self._local, self._is_anchored = local, setup.global_step.is_anchored
         self._constraints = constraints
         rest, real, arrays = setup.rest, local.real, local.arrays
         keep = arrays.keep
@@ -102,7 +97,6 @@ class TaichiMotion:
         return float(displacement), float(distance)
 
     def _upright_parts(self, keep_rotation):
-        """Return the UprightParts that a step has to obey, or None."""
         if not keep_rotation or self._is_anchored.all():
             return None
         parts = self._setup.global_step.upright_parts

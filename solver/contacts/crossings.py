@@ -86,15 +86,9 @@ class Watched:
 
     They are searched for once. Which of them cross is then found again and again in little time.
 
-    Parameters
-    ----------
-    F : (m,3) int array
-    low, high : (m,3) float arrays
-        Corners of the boxes, in the unit box.
-    is_moved : (m,) bool array
-        Triangles that move; pairs of two others are not watched.
-    counts : callable, optional
-        Maps pairs of triangles (k,2) to a mask (k,) of those that are to be watched.
+    `F`: (m,3) int. `low`, `high`: (m,3), corners of the boxes, in the unit box. `is_moved`: (m,)
+    bool, triangles that move; pairs of two others are not watched. `counts`: callable, optional,
+    maps pairs of triangles (k,2) to a mask (k,) of those that are to be watched.
     """
 
     def __init__(self, F, low, high, is_moved, counts=None):

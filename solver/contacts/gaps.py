@@ -88,7 +88,6 @@ class Gaps:
         return end
 
     def _is_facing(self, i, j):
-        """Return which pairs lie more across than along the surface at both ends."""
         d = self._V[j] - self._V[i]
         least = _FACING * np.linalg.norm(d, axis=1)
         one, other = ((d * self._normals[k]).sum(axis=1) for k in (i, j))

@@ -87,14 +87,9 @@ class KeepApart:
     Call `check` when the iteration has ended, then `renewed` if it asks for another round, else
     `finish`. All of them take the Stylization.
 
-    Attributes
-    ----------
-    crossings : int
-        Number of triangles of the input that can be seen to cross and did not cross at rest.
-    pressed : int
-        How many of them only cross other parts, which a round was too dear for.
-    vertices : (k,) int array
-        Their vertices in the input.
+    `crossings`: number of triangles of the input that can be seen to cross and did not cross at
+    rest. `pressed`: how many of them only cross other parts, which a round was too dear for.
+    `vertices`: (k,) int, their vertices in the input.
     """
 
     def __init__(self, rest):
@@ -256,7 +251,6 @@ class KeepApart:
         return (one != other) & ~is_worn[one] & ~is_worn[other]
 
     def _is_too_dear(self, stylization, before):
-        """Return whether the first round has taken back too much of what the style had done."""
         least, by_share = WORTH
         worth = least + by_share * before.state.count / len(self._shown)
         return stylization.energy.cubic - self._first.energy.cubic > worth * before.fall
@@ -291,7 +285,6 @@ class KeepApart:
             self._has_helped, self._best = self._best is not None, state
 
     def _share_linked(self, pairs, links):
-        """Return the share of pairs (k,2) of triangles that both have a vertex with a link."""
         is_linked = np.zeros(len(self._rest.V), dtype=bool)
         is_linked[links.vertices[links.coefficients != 0.0]] = True
         return np.any(is_linked[self._shown], axis=1)[pairs].all(axis=1).mean()

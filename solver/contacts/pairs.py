@@ -90,7 +90,6 @@ def _openness(V, U, R, i, j):
 
 
 def _weights(area, d):
-    """Return the weights (k,) of links along d (k,3) that stand for an area (k,) each."""
     return STRENGTH * area / np.maximum((d * d).sum(axis=1), _LEAST_SHARE**2 * area + 1e-12)
 
 

@@ -63,7 +63,6 @@ def _moved(triangles, pairs, n):
 
 
 def _corrections(V, U, triangles, pairs, is_free):
-    """Return how the vertices (n,3) are moved by one step."""
     one, other = triangles[pairs[:, 0]].astype(np.int64), triangles[pairs[:, 1]].astype(np.int64)
     A, B = np.concatenate([one, other]), np.concatenate([other, one])
     normal, lift, depth = _lifts(V, U, A, B)

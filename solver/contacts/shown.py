@@ -73,7 +73,6 @@ def _cut(V, F, one, other):
 
 
 def _turned(turn, places):
-    """Return places (3,k) times a matrix, which takes less time than a product of matrices."""
     return np.stack([dot(*axis, *places) for axis in turn])
 
 
@@ -84,100 +83,59 @@ def _is_blocked(places, points, F, pairs, least):
     are looked at from the top down, each time twice as many: below a pile of others, the first ones
     are enough.
     """
-    at, end, found, triangles, low, high = _columns(places, points, F)
+    a, b, c = (places.take(corner, axis=1) for corner in F)
+    low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+    triangle, at, end = _in_cells(low, high, points)
     is_blocked = np.zeros(len(at), dtype=bool)
     todo, size = np.flatnonzero(at < end), 1
     while len(todo):
         count = np.minimum(size, end[todo] - at[todo])
-        point, rows = np.repeat(todo, count), np.repeat(at[todo] - np.cumsum(count) + count, count)
-        place = found[rows + np.arange(len(point))]
-        is_near = np.ones(len(point), dtype=bool)
-        for own in pairs.T:
-            is_near &= own.take(point) != triangles.take(place)
-        for begin, stop, here in zip([*low, None], high, points, strict=True):
+        point, start = np.repeat(todo, count), at[todo] - np.cumsum(count) + count
+        place = triangle[np.repeat(start, count) + np.arange(len(point))]
+        is_near = (pairs.take(point, axis=0) != place[:, None]).all(axis=1)
+        is_near &= high[2].take(place) > points[2].take(point)
+        for below, above, here in zip(low[:2], high[:2], points, strict=False):
             here = here.take(point)
-            is_near &= stop.take(place) >= here
-            if begin is not None:
-                is_near &= begin.take(place) <= here
+            is_near &= (below.take(place) <= here) & (here <= above.take(place))
         point, place = point[is_near], place[is_near]
-        a, b, c = (places.take(corner, axis=1) for corner in F.take(triangles[place], axis=1))
-        is_above = _height(a, b, c, points.take(point, axis=1)) > least
+        A, B, C = (x.take(place, axis=1) for x in (a, b, c))
+        is_above = _height(A, B, C, points.take(point, axis=1)) > least
         is_blocked[point[is_above]] = True
         at[todo] += count
-        goes_on = ~is_blocked[todo] & (at[todo] < end[todo])
-        goes_on &= high[2][found[at[todo] - 1]] >= points[2, todo]
-        todo, size = todo[goes_on], min(2 * size, max(_MOST_AT_ONCE // len(at), 1))
+        is_left = ~is_blocked[todo] & (at[todo] < end[todo])
+        is_left &= high[2].take(triangle[at[todo] - 1]) >= points[2, todo]
+        todo, size = todo[is_left], min(2 * size, max(_MOST_AT_ONCE // len(at), 1))
     return is_blocked
 
 
-def _columns(places, points, F):
-    """Return the triangles in the cell of each point.
+def _in_cells(low, high, points):
+    """Return the triangles whose boxes are in the cell of each point, seen from above.
 
-    Returns `begin`, `end`: (k,), of the rows of `found`: (e,) int, numbers of `triangles`: (t,)
-    int. Those of a cell are in the order of their tops, the highest first. `low`: two (t,), and
-    `high`: three, the boxes of these triangles.
+    Returns `triangle`: (e,) int, in each cell the highest first; `begin`, `end`: (k,), of those of
+    a point in it.
     """
-    origin = places[:2].min(axis=1)
-    extent = (places[:2].max(axis=1) - origin).max()
-    side = int(np.clip(np.sqrt(F.shape[1]), 8, _MOST_CELLS))
+    near = np.argsort(-high[2])[: np.count_nonzero(high[2] > points[2].min())]
+    ends, origin = (low[:2, near], high[:2, near]), low[:2].min(axis=1, keepdims=True)
+    extent = max(float((high[:2] - origin).max()), 1e-300)
+    side = int(np.clip(np.sqrt(len(near)), 8, _MOST_CELLS))
     while True:
-        scale = side / max(extent, 1e-300) * (1.0 - 1e-9)
-        cell, of_corners = (_cells(ends, origin, scale, side) for ends in (points, places))
-        first, last = _between_corners(of_corners, F)
-        width, depth = (last - first + 1).T
-        # no product of BLAS, whose threads would wait longer for each other than they compute
-        count = np.multiply(width, depth, dtype=np.int32).sum()
-        if side == 1 or count <= _PER_TRIANGLE * len(first):
+        first, last, (column, row) = (
+            ((x - origin) * (side / extent)).astype(np.int32).clip(0, side - 1)
+            for x in (*ends, points[:2])
+        )
+        if side == 1 or (last - first + 1).prod(axis=0).sum() <= _PER_TRIANGLE * len(near):
             break
         side //= 2
-    number = cell[:, 0] * np.intp(side) + cell[:, 1]
-    of_cells = np.bincount(number, minlength=side * side)
-    near = _around(of_cells.reshape(side, side), first, last)
-    tops = places[2].take(F.take(near, axis=1)).max(axis=0)
-    order = np.argsort(-tops)[: np.count_nonzero(tops > points[2].min())]
-    near, tops = near[order], tops[order]
-    corners = F.take(near, axis=1)
-    low, high = (
-        [limit.reduce(along.take(corners)) for along in places[:2]]
-        for limit in (np.minimum, np.maximum)
-    )
-    box, (column, row) = entries(*(ends[near].T.astype(np.int32) for ends in (first, last)))
-    of_cell = column * side + row
-    kept = np.flatnonzero(of_cells[of_cell])
-    of_cell = of_cell[kept].astype(np.uint16)  # which are sorted in linear time
-    count = np.bincount(of_cell, minlength=side * side)
+    number, is_asked = column * side + row, np.zeros(side * side, dtype=bool)
+    is_asked[number] = True
+    box, (column, row) = entries(first, last)
+    cell = column * side + row
+    kept = np.flatnonzero(is_asked[cell])
+    cell = cell[kept].astype(np.uint16)  # which are sorted in linear time
+    count = np.bincount(cell, minlength=side * side)
+    triangle = near[box[kept[np.argsort(cell, kind="stable")]]]
     end = np.cumsum(count)
-    found = box[kept[np.argsort(of_cell, kind="stable")]]
-    return (end - count)[number], end[number], found, near, low, [*high, tops]
-
-
-def _cells(places, origin, scale, side):
-    """Return the cells (k,2) int16 of a grid that places (3,k) lie in."""
-    cells = np.empty((places.shape[1], 2), np.int16)
-    for axis in range(2):
-        cells[:, axis] = ((places[axis] - origin[axis]) * scale).clip(0, side - 1)
-    return cells
-
-
-def _between_corners(cells, F):
-    """Return the first and the last cells (m,2) of triangles, from those (n,2) of their corners."""
-    both = cells.view(np.int32).ravel()  # that both numbers are taken at once
-    a, b, c = (both.take(corner).view(np.int16).reshape(-1, 2) for corner in F)
-    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-
-
-def _around(of_cells, first, last):
-    """Return the triangles (t,) that may lie above one of the points counted in cells (s,s)."""
-    side = len(of_cells)
-    count = np.zeros((side + 1, side + 1), dtype=np.int32)
-    count[1:, 1:] = of_cells.cumsum(axis=0).cumsum(axis=1)
-    count = count.ravel()
-    rows = np.arange(0, (side + 1) ** 2, side + 1)
-    (left, low), (right, high) = first.T, (last + np.int16(1)).T
-    left, right = rows.take(left), rows.take(right)
-    inside = count.take(right + high) - count.take(left + high)
-    inside += count.take(left + low) - count.take(right + low)
-    return np.flatnonzero(inside > 0)
+    return triangle, (end - count)[number], end[number]
 
 
 def _height(a, b, c, points):

@@ -30,28 +30,12 @@ _NEAR = 16  # vertices that may stand for a corner
 class Corners:
     """The corners of parts of regions.
 
-    Parameters
-    ----------
-    W, G : arrays
-        Positions (n,3) and triangles (m,3).
-    graph : FaceGraph
-        Of these.
-    regions : Regions
-    parts : (m,) int array
-        The part of each triangle; parts lie in one region each.
-    tolerance : float
-        How far vertices may be moved.
-    walls : sequence of ((n,) bool, (3,))
-        As of `nearest_on_planes`.
+    `W`, `G`: positions (n,3) and triangles (m,3). `graph`: FaceGraph of these. `regions`: Regions.
+    `parts`: (m,) int, the part of each triangle; parts lie in one region each. `tolerance`: float,
+    how far vertices may be moved. `walls`: as of `nearest_on_planes`.
 
-    Attributes
-    ----------
-    positions : (n,3) array
-        Where the corners go.
-    loops : dict of int to list of lists of int
-        As of `Outlines`.
-    normals : (k,3) array
-        The unit normal of each part.
+    `positions`: (n,3), where the corners go. `loops`: as of `Outlines`. `normals`: (k,3), the unit
+    normal of each part.
     """
 
     def __init__(self, W, G, graph, regions, parts, tolerance, walls):
@@ -75,7 +59,6 @@ class Corners:
             course[crossed] *= _CLOSER
 
     def _settled(self, loops, G, graph, regions):
-        """Return loops with the corners that planes have room for, these, and their normals."""
         W = self._W
         for _ in range(_ROUNDS):
             corners = [(v, self._region[n]) for n, of in loops.items() for v in set().union(*of)]
@@ -102,7 +85,6 @@ class Corners:
         return P
 
     def _in_planes(self, pairs, regions, limit):
-        """Move vertices into the planes of regions, those of the larger ones first."""
         W, most = self._W, np.full(len(self._W), MOST)
         vertex, plane = pairs.T
         normals, offsets, walls = regions.normals, regions.offsets, self._walls
@@ -128,7 +110,6 @@ class Corners:
 
 
 def _pairs(G, region):
-    """Return pairs (p,2) of vertices and the regions of their triangles."""
     count = region.max() + 1
     keys = np.unique(G.astype(np.int64) * count + region[:, None])
     return np.stack(np.divmod(keys, count), axis=1)

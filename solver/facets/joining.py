@@ -106,7 +106,6 @@ def without_needless(P, loops, off):
 
 
 def _copied(loops):
-    """Return a copy of the loops, and the parts around each corner."""
     around = {}
     for part, of in loops.items():
         for loop in of:
@@ -116,7 +115,6 @@ def _copied(loops):
 
 
 def _replaced(loops, kept, gone):
-    """Return the loops of a part with one corner in place of another, without empty ones."""
     made = []
     for loop in loops:
         new = [kept if v == gone else v for v in loop]

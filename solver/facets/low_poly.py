@@ -30,13 +30,10 @@ class LowPoly(Value):
     Examples
     --------
     >>> import numpy as np
-    >>> from solver import low_poly
-    >>> V = np.array([[x, y, z] for x in (0.0, 1) for y in (0.0, 1) for z in (0.0, 1)])
-    >>> sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    >>> F = np.array([[a, b, c] for a, b, c, d in sides] + [[a, c, d] for a, b, c, d in sides])
-    >>> low = low_poly(V, F, np.concatenate([np.eye(3), -np.eye(3)]), 0.02)
-    >>> len(F), sorted(map(len, low.polygons))
-    (12, [4, 4, 4, 4, 4, 4])
+    >>> from solver import ball, low_poly
+    >>> low = low_poly(*ball(), np.concatenate([np.eye(3), -np.eye(3)]), 0.1)
+    >>> len(low.polygons) == len(low.part_of)
+    True
     """
 
     positions: FloatArray
@@ -67,28 +64,14 @@ def low_poly(
 
     Parameters
     ----------
-    positions, triangles, tolerance, walls, counts
-        As of `flatten_facets`.
-    directions : (k,3) array
-        Unit vectors.
+    positions, triangles, directions, tolerance, walls, counts
+        As of `flatten_facets`, which makes the sides of the triangles themselves planar; the
+        directions are unit vectors.
     charts : (m,) int array, optional
         Polygons end between triangles of different ones, such as those of two materials.
     cuts : (c,2) int array, optional
         Pairs of neighbors between which polygons end within a chart too, as at a seam that does not
         go around it.
-
-    Returns
-    -------
-    LowPoly
-
-    Raises
-    ------
-    CubicCraftError
-        As `flatten_facets`.
-
-    See Also
-    --------
-    flatten_facets : Makes the sides of the triangles themselves planar.
 
     Examples
     --------

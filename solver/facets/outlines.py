@@ -21,22 +21,13 @@ _FEWEST = 3  # corners of a loop
 class Outlines:
     """The borders of parts.
 
-    Parameters
-    ----------
-    P : (n,3) array
-        Where the vertices go that are kept.
-    F : (m,3) int array
-    part : (m,) int array
-    facing : (k,3) array
-        The unit normal of the plane of each part.
-    course : float
-        How far a chain may leave its course, where planes meet at a right angle; the flatter they
-        meet, the farther, up to `MOST_LEFT` times, since the shape changes the less.
+    `P`: (n,3), where the vertices go that are kept. `F`: (m,3) int. `part`: (m,) int. `facing`:
+    (k,3), the unit normal of the plane of each part. `course`: (k,), how far a chain may leave its
+    course, where planes meet at a right angle; the flatter they meet, the farther, up to
+    `MOST_LEFT` times, since the shape changes the less.
 
-    Attributes
-    ----------
-    loops : dict of int to list of lists of int
-        Of each part, the vertices around it and around its holes, counterclockwise and clockwise.
+    `loops`: dict of int to list of lists of int, of each part the vertices around it and around its
+    holes, counterclockwise and clockwise.
     """
 
     def __init__(self, P, F, part, facing, course):
@@ -56,7 +47,6 @@ class Outlines:
             self.loops.setdefault(number, []).append([v for v in loop if v in anchors])
 
     def _find_border(self, edges):
-        """Find the half-edges at borders, and the opposite ones of the others."""
         F, m = self._F, len(self._F)
         number = edges.number[[2, 0, 1]].T.ravel()  # of the half-edge from each corner to the next
         backward = edges.is_backward[[2, 0, 1]].T.ravel()
@@ -96,7 +86,6 @@ class Outlines:
         return found
 
     def _find_chains(self):
-        """Return lists of vertices; a chain without ends begins and ends at the same one."""
         near = {}
         for a, b in self._edges.tolist():
             near.setdefault(a, []).append(b)
@@ -117,7 +106,6 @@ class Outlines:
         return chains
 
     def _courses(self, facing, course):
-        """Return how far each chain may leave its course."""
         parts = {}
         ends = self._F[:, [1, 2, 0]].ravel()
         for h in self._border.tolist():
@@ -132,7 +120,6 @@ class Outlines:
         return found
 
     def _simplified(self, chain, course):
-        """Return which entries of a chain are kept, in ascending order."""
         kept, open_spans = [0, len(chain) - 1], [(0, len(chain) - 1)]
         while open_spans:
             a, b = open_spans.pop()
@@ -174,7 +161,6 @@ class Outlines:
                 return
 
     def _kept_more(self, spans):
-        """Keep a vertex more of each span that has one; return whether any has."""
         found = False
         for number, a, b in spans:
             at, _ = self._farthest(self._chains[number], a, b)
@@ -184,7 +170,6 @@ class Outlines:
         return found
 
     def _keep_open(self, dense):
-        """Keep enough vertices of each loop."""
         anchors = self._anchors()
         at = {v: (n, i) for n, chain in enumerate(self._chains) for i, v in enumerate(chain)}
         for _, loop in dense:

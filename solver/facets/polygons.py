@@ -67,7 +67,6 @@ def crossings(P, loops, normal):
 
 
 def _plane_coordinates(P, loops, normal):
-    """Return coordinates (2,) of the vertices of loops, by vertex."""
     axis = np.eye(3)[np.abs(normal).argmin()]
     x = np.cross(axis, normal)
     x /= np.linalg.norm(x)
@@ -128,7 +127,6 @@ def _bridged(at, outer, hole, others):
 
 
 def _side(a, b, c):
-    """Return twice the signed area of a, b, c."""
     u, v = b - a, c - a
     return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
 
@@ -150,7 +148,6 @@ def _best_ear(X, vertex, off):
 
 
 def _merged(P, polygons, flatness, normal):
-    """Return polygons of which neighbors are one where they are planar together."""
     polygons = dict(enumerate(polygons))
     is_changed = True
     while is_changed:

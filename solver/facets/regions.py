@@ -35,25 +35,18 @@ _MERGES = 30
 
 @dataclass(frozen=True, eq=False)
 class Regions:
-    """Parts of a surface with a plane each.
-
-    Attributes
-    ----------
-    of_triangle : (m,) int array
-    normals : (r,3) array
-        Unit normals of the planes.
-    offsets : (r,) array
-        Their distances from the origin.
-    areas : (r,) array
-    is_faced : (r,) bool array
-        Which of them face a direction exactly.
-    """
+    """Parts of a surface with a plane each."""
 
     of_triangle: IntArray
+    """(m,) int"""
     normals: FloatArray
+    """(r,3) unit normals of the planes"""
     offsets: FloatArray
+    """(r,) their distances from the origin"""
     areas: FloatArray
+    """(r,)"""
     is_faced: BoolArray
+    """(r,) bool, which of them face a direction exactly"""
 
 
 def nearest_labels(graph, directions, counts=None):
@@ -78,16 +71,9 @@ def nearest_labels(graph, directions, counts=None):
 def regions_of(V, F, graph, directions, tolerance, counts=None):
     """Part a surface into Regions.
 
-    Parameters
-    ----------
-    V, F : arrays
-        Positions (n,3) and triangles (m,3).
-    graph : FaceGraph
-        Of these.
-    directions : (k,3) array
-    tolerance : float
-        Vertices farther from the plane of a region belong to another one, if they are many.
-    counts : (m,k) bool array, optional
+    `V`, `F`: positions (n,3) and triangles (m,3). `graph`: FaceGraph of these. `directions`: (k,3).
+    `tolerance`: float, vertices farther from the plane of a region belong to another one, if they
+    are many. `counts`: as of `nearest_labels`.
     """
     X, label = V[F], nearest_labels(graph, directions, counts)
     side = _connected(graph, label)
@@ -126,7 +112,6 @@ def _is_off(X, N, regions, tolerance):
 
 
 def _connected(graph, label):
-    """Return numbers (m,) of the connected parts of one label."""
     return graph.regions(label[graph.one] == label[graph.other])[1].astype(np.int64)
 
 

@@ -12,16 +12,9 @@ from .polygons import beside, crossings, edges_of, is_polygon, normal_of
 def straightened(P, polygons, chart_of, flatness):
     """Return polygons without the corners that only two of them have, and their numbers (k,).
 
-    Parameters
-    ----------
-    P : (n,3) array
-        Positions.
-    polygons : list of lists of int
-        Planar, counterclockwise.
-    chart_of : sequence of int
-        Corners between polygons of two charts stay.
-    flatness : float
-        How far the corners of a polygon may be from a plane.
+    `P`: (n,3), positions. `polygons`: list of lists of int, planar, counterclockwise. `chart_of`:
+    sequence of int, corners between polygons of two charts stay. `flatness`: float, how far the
+    corners of a polygon may be from a plane.
     """
     loops = dict(enumerate(map(list, polygons)))
     owner = {edge: k for k, loop in loops.items() for edge in edges_of(loop)}

@@ -41,11 +41,7 @@ _ORTHONORMALIZATIONS = 4
 
 
 class SequenceState(NamedTuple):
-    """The end of a frame, from which the next one begins.
-
-    See Also
-    --------
-    FrameSequence : Returns and takes it.
+    """The end of a frame, from which the next one of a `FrameSequence` begins.
 
     Examples
     --------
@@ -99,15 +95,6 @@ class FrameSequence:
         Share f of the deformation that is dropped from frame to frame; 0 for a mesh that does not
         move while its style changes.
 
-    Attributes
-    ----------
-    state : SequenceState or None
-        The last frame that was solved.
-
-    See Also
-    --------
-    Setup.posed : The setup of another frame.
-
     Examples
     --------
     A ball that is drawn out by a tenth, frame by frame, and how far its cubic version moves:
@@ -129,7 +116,7 @@ class FrameSequence:
         self, first: RestMesh, state: SequenceState | None = None, forgotten: float = FORGOTTEN
     ):
         self._first, self._forgotten = first, forgotten
-        self.state = state
+        self.state = state  # the last frame that was solved
 
     @property
     def turns(self) -> FloatArray:
@@ -145,11 +132,7 @@ class FrameSequence:
     ) -> Result:
         """Solve the next frame; `begin`, `settle` and `end` in one.
 
-        Returns
-        -------
-        Result
-            After the first frame, its reason is "max_iterations", or "converged" if nothing moved
-            any more.
+        After the first frame, the reason is "max_iterations", or "converged" if nothing moved.
         """
         run = self.begin(stylization, max_iterations, tolerance)
         run.complete()
@@ -166,15 +149,8 @@ class FrameSequence:
         ----------
         stylization : Stylization
             A new one, of the first mesh or a pose of it.
-        max_iterations : int
+        max_iterations, tolerance
             Of the first frame, as for `Run`.
-        tolerance : float
-            Of the first frame, as for `Run`.
-
-        Raises
-        ------
-        CubicCraftError
-            As `Run`.
         """
         self._turns = np.tile(np.eye(3), (len(stylization.rest.V), 1, 1))
         if self.state is None:

@@ -32,12 +32,7 @@ _BINS = np.geomspace(1e-12, 1e6, 4001)  # a relative 1 %
 
 
 class Frames(NamedTuple):
-    """Some vertices of an animation, in all frames.
-
-    See Also
-    --------
-    frame_of : Makes those of one frame.
-    least_width : How much they should be smoothed.
+    """Some vertices of an animation, in all frames; `frame_of` makes those of one frame.
 
     Examples
     --------
@@ -75,22 +70,9 @@ class Frames(NamedTuple):
 
 
 def frame_of(inputs: FloatArray, turns: FloatArray, positions: FloatArray) -> Frames:
-    """Return the `Frames` of a single frame.
+    """Return the `Frames` of a single frame, of an input and its result (k,3).
 
-    Parameters
-    ----------
-    inputs, positions : (k,3) numpy arrays
-        The input and the result.
-    turns : (k,3,3) numpy array
-        See `FrameSequence.turns`.
-
-    Returns
-    -------
-    Frames
-
-    See Also
-    --------
-    FrameSequence : Solves the frames.
+    `turns`: (k,3,3), see `FrameSequence.turns`.
 
     Examples
     --------
@@ -106,12 +88,7 @@ def frame_of(inputs: FloatArray, turns: FloatArray, positions: FloatArray) -> Fr
 
 
 class _Lengths:
-    """The lengths of vectors, collected piece by piece.
-
-    Attributes
-    ----------
-    largest : float
-    """
+    """The lengths of vectors, collected piece by piece."""
 
     def __init__(self):
         self.largest = 0.0
@@ -139,12 +116,7 @@ class _Lengths:
 
 
 class Jumps(_Lengths):
-    """The sizes of all jumps, collected piece by piece.
-
-    Attributes
-    ----------
-    largest : float
-    """
+    """The sizes of all jumps, collected piece by piece."""
 
     def add(self, positions):
         """Add vertices (f,k,3) in all frames."""
@@ -190,28 +162,13 @@ class Motion(Jumps):
         return largest, percentile
 
 
-def least_width(
-    pieces: Callable[[], Iterable[Frames]], limit: float = MOST_JUMPS
-) -> tuple[float, tuple[float, ...]]:
-    """Return the least of `WIDTHS` that keeps the limit, or the largest, and the ratios then.
+def least_width(pieces: Callable[[], Iterable[Frames]]) -> tuple[float, tuple[float, ...]]:
+    """Return the least of `WIDTHS` that keeps `MOST_JUMPS`, or the largest, and the ratios then.
 
-    Parameters
-    ----------
-    pieces : callable
-        Returns an iterator over `Frames` with all vertices, each time it is called.
-    limit : float
+    `pieces`: callable, returns an iterator over `Frames` with all vertices, each time it is called.
 
-    Returns
-    -------
-    width : float
-        In frames.
-    ratios : (float, float)
-        Of the largest jumps and of the 99th percentile to those of the input, which count as at
-        least a small share of its speed and size; 0 where the input lies still.
-
-    See Also
-    --------
-    frame_of : Makes the Frames of one frame.
+    The ratios are those of the largest jumps and of the 99th percentile to those of the input,
+    which count as at least a small share of its speed and size; 0 where the input lies still.
 
     Examples
     --------
@@ -231,6 +188,6 @@ def least_width(
         for piece in pieces():
             jumps.add(piece.results(width))
         ratios = jumps.over(inputs)
-        if max(ratios) <= limit:
+        if max(ratios) <= MOST_JUMPS:
             return width, ratios
     return WIDTHS[-1], ratios

@@ -29,7 +29,6 @@ def aggregates(A):
 
 
 def _members(A):
-    """Return the (n,k) csr_array of which unknown is in which aggregate."""
     pyamg = optional_package("pyamg")
     return pyamg.aggregation.aggregate.standard_aggregation(sp.csr_array(A))[0]
 

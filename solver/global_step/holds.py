@@ -26,15 +26,8 @@ class HoldFields:
     `weights`: sequence of (N,), of the vertices of the input. What is pinned, loose, or in a
     component of which the group has nothing, does not count.
 
-    Attributes
-    ----------
-    weights
-        As given.
-    components : (c,) int array
-        Components in which there is a group.
-    fields : list of tuple
-        Of each group its weights w (n,), its centroid, the offsets x (n,3) from that, and P and T,
-        (n,4).
+    `components`: (c,) int, those in which there is a group. `fields`: of each group its weights w
+    (n,), its centroid, the offsets x (n,3) from that, and P and T, (n,4).
     """
 
     def __init__(self, setup, weights):
@@ -87,7 +80,8 @@ class Holds:
         """Return the places and torques of the groups, (6g,)."""
         found = []
         for w, pull in zip(self._places, self._pulls, strict=True):
-            found += [weighted_sum(w, U), _torque(pull, U)]
+            # by a product of matrices: the cross product of each row takes longer
+            found += [weighted_sum(w, U), transposed_product(pull, U).ravel() @ AXIAL]
         return np.concatenate(found)
 
     def _system(self):
@@ -123,14 +117,6 @@ class Holds:
         wrong = np.zeros(len(self._inverse))
         wrong[: len(self._goals)] = self._goals - self._measure(U)
         U += self._change(self._inverse @ wrong)
-
-
-def _torque(pull, U):
-    """Return sum_i y_i x u_i (3,) of two arrays (n,3).
-
-    By a product of matrices: the cross product of each row takes longer.
-    """
-    return transposed_product(pull, U).ravel() @ AXIAL
 
 
 def _turn(b):

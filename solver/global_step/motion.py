@@ -7,12 +7,8 @@ class Motion:
 
     `local`: whose rotations the positions follow. `U`: (n,3) float64, the first positions in the
     unit box, with pinned vertices at their targets. `constraints`: applied after each step:
-    ``impose(U)`` moves positions (n,3) so that they are satisfied.
-
-    Attributes
-    ----------
-    point : (n,3) array
-        Positions used by the next local step.
+    ``impose(U)`` moves positions (n,3) so that they are satisfied. `point`: (n,3), positions that
+    the next local step looks at.
     """
 
     def __init__(self, setup, local, U, constraints=()):

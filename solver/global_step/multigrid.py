@@ -39,16 +39,10 @@ class Multigrid:
     the held rows: positive definite. `held`: (k,) int, rows of the solution that stay as they are
     given.
 
-    Attributes
-    ----------
-    levels : list of Level
-        All but the coarsest, from fine to coarse. The matrix of each is scaled on both sides to a
-        diagonal of ones.
-    scale : (n,) float32 array
-        Factor of the residual before the cycle, and of the correction after it; 0 for
-        held rows.
-    coarsest : csr_matrix
-        The scaled matrix of the coarsest level.
+    `levels`: list of Level, all but the coarsest, from fine to coarse. The matrix of each is scaled
+    on both sides to a diagonal of ones. `scale`: (n,) float32, factor of the residual before the
+    cycle, and of the correction after it; 0 for held rows. `coarsest`: csr_matrix, the scaled
+    matrix of the coarsest level.
     """
 
     def __init__(self, A, decoupled, held):
@@ -91,13 +85,8 @@ class Level:
     `A`: (n,n) csr_matrix, with a diagonal of ones. `P`: (n,k) csr_matrix, prolongation from the
     next level. `scale`: (n,), what A was multiplied by on both sides.
 
-    Attributes
-    ----------
-    A, P, restrict : csr_matrix
-        In 32 bit; the last is the transpose of P.
-    of_b, of_ab : float32
-        The smoother is of_b B + of_ab A B, the Chebyshev polynomial of degree 2 that damps the
-        upper end of the spectrum.
+    A, P and its transpose `restrict` are in 32 bit. The smoother is of_b B + of_ab A B, the
+    Chebyshev polynomial of degree 2 that damps the upper end of the spectrum.
     """
 
     def __init__(self, A, P, scale):

@@ -31,10 +31,7 @@ class NoTurning:
     `is_free`: (component_count,) bool, components without a pinned vertex; the others are left
     alone. `solve`: maps B (n,3) to the solution X (n,3) of L X = B, or to what is near it.
 
-    Attributes
-    ----------
-    pull, P : (n,3) arrays
-        w x and P as above, zero in components with a pinned vertex.
+    `pull`, `P`: (n,3), w x and P as above, zero in components with a pinned vertex.
     """
 
     def __init__(self, rest, is_free, solve):

@@ -38,17 +38,10 @@ class GlobalStep:
     diagonal of L: how firmly vertices are drawn to given places, which belong to the right-hand
     side. Then nothing floats.
 
-    Attributes
-    ----------
-    hold
-        As given.
-    is_factorized : bool
-        Whether `positions` solves by the factorization, not by multigrid.
-    is_anchored : (component_count,) bool array
-        Components that do not float: with a pinned vertex, or see `anchored`.
-    solve : callable
-        Maps B (n,3) and X (n,3) to the solution of L X = B, or to what is nearer to it than X; what
-        is held stays as it is in X.
+    `is_factorized`: whether `positions` solves by the factorization, not by multigrid.
+    `is_anchored`: (component_count,) bool, components that do not float, but have a pinned vertex
+    or a held group. `solve`: maps B (n,3) and X (n,3) to the solution of L X = B, or to what is
+    nearer to it than X; what is held stays as it is in X.
     """
 
     def __init__(self, rest, pinned, hold=None):
@@ -104,13 +97,8 @@ class GlobalStep:
         return ~self.is_anchored & (extents(rest.V, rest.topology.component) > _POINT)
 
     def _forget_constraints(self):
-        for name in (
-            "_may_be_kept",
-            "centring",
-            "no_turning",
-            "no_turning_by_cycles",
-            "upright_parts",
-        ):
+        names = ("_may_be_kept", "centring", "no_turning", "no_turning_by_cycles", "upright_parts")
+        for name in names:
             self.__dict__.pop(name, None)
 
     @cached_property
@@ -164,7 +152,6 @@ class GlobalStep:
 
 
 def _is_small(topology):
-    """Return whether to factorize."""
     largest = topology.largest_component
     if largest <= FACTORIZED_VERTICES:
         return True

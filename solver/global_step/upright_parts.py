@@ -42,10 +42,7 @@ class UprightParts:
     alone. `solve`: maps B (n,3) to the solution X (n,3) of L X = B, or to what is near it: the
     constraints are satisfied all the same, at a little more energy.
 
-    Attributes
-    ----------
-    is_kept : (component_count,) bool array
-        Components that have such constraints.
+    `is_kept`: (component_count,) bool, components that have such constraints.
     """
 
     def __init__(self, rest, is_free, solve):
@@ -71,7 +68,8 @@ class UprightParts:
             for c in having:
                 rows, vertices = self._rows[c], groups[c][k]
                 pulls[c].append((place[vertices], pull[vertices]))
-                ways[c].append(P[rows] - _centroid(rest.weighing[rows], P[rows]))
+                share = rest.weighing[rows] / rest.weighing[rows].sum()
+                ways[c].append(P[rows] - weighted_sum(share, P[rows]))  # the centroid stays
         self._ways = {c: np.hstack(ways[c]) for c in groups}
         self._pulls = {c: _rows_of(pulls[c], len(self._ways[c])) for c in groups}
         self._inverses = {c: _inverse(self._pulls[c], self._ways[c]) for c in groups}
@@ -138,13 +136,7 @@ def _large_parts(rest, is_free):
     return groups
 
 
-def _centroid(weights, P):
-    """Return the centroid (3,), which is to stay where it is."""
-    return weighted_sum(weights / weights.sum(), P)
-
-
 def _rows_of(pulls, count):
-    """Return the pulls (j,3) at some of the vertices, of each part, as a csr_matrix (3k,count)."""
     columns = np.concatenate([np.tile(vertices, 3) for vertices, _ in pulls])
     data = np.concatenate([pull.T.ravel() for _, pull in pulls])
     start = np.append(0, np.cumsum(np.repeat([len(pull) for _, pull in pulls], 3)))

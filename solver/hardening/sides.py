@@ -148,7 +148,7 @@ def _groups(graph, whole, form_of):
         nodes = int(group.max()) + 1
         pairs = np.stack([group[cut], nodes + faces[cut]], axis=1)
         total = nodes + int(faces.max()) + 1
-        group = components(np.empty((0, 3), np.int64), total, pairs)[1][group]
+        group = components(pairs, total)[1][group]
     return np.unique(group * (form_of.max() + 1) + form_of, return_inverse=True)[1].ravel()
 
 

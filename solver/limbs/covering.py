@@ -16,18 +16,10 @@ _APART = 10.0  # farther than any part is wide
 def with_coverings(limbs, V, part, links, linked_share):
     """Return the Limbs in which parts that cover others lie as these do.
 
-    Parameters
-    ----------
-    limbs : Limbs
-        As found in each part.
-    V : (n,3) float array
-        Rest positions in the unit box.
-    part : (n,) int array
-    links : Links
-        Between parts.
-    linked_share : (p,) array
-        Share of the area of each part that is linked to other parts. Of two that are linked to each
-        other, the one with the larger share covers the other.
+    `limbs`: Limbs, as found in each part. `V`: (n,3), rest positions in the unit box. `part`: (n,)
+    int. `links`: Links between parts. `linked_share`: (p,), share of the area of each part that is
+    linked to others. Of two that are linked to each other, that with the larger share covers the
+    other.
     """
     is_covering = linked_share > COVERING
     if not (len(limbs) and is_covering.any()):

@@ -14,12 +14,8 @@ from .limbs import KnownLimbs, no_limbs
 def joined_limbs(parts: Sequence[KnownLimbs | None], counts: Sequence[int]) -> KnownLimbs | None:
     """Return the KnownLimbs of bodies that are solved together, None if none is known.
 
-    Parameters
-    ----------
-    parts : sequence of KnownLimbs or None
-        None where nothing is known.
-    counts : sequence of int
-        Number of vertices of each body.
+    `parts`: sequence of KnownLimbs, or None where nothing is known. `counts`: numbers of vertices
+    of the bodies.
 
     Examples
     --------
@@ -56,7 +52,6 @@ def placed_limbs(limbs: KnownLimbs, rotation: FloatArray) -> KnownLimbs:
 
 
 def _used(limbs):
-    """Return KnownLimbs without the pieces to which nothing belongs."""
     used = np.flatnonzero(np.asarray(limbs.shares.sum(axis=0)).ravel() > 0.0)
     carried = limbs.all_carried[used]
     shares = limbs.shares[:, used]

@@ -14,21 +14,7 @@ from ..values import Value
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Limbs(Value):
-    """Straight pieces of limbs, and how far each vertex belongs to each of them.
-
-    See Also
-    --------
-    limbs_of_shape : Finds them.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from scipy.sparse import csr_matrix
-    >>> from solver.limbs import Limbs
-    >>> arm = Limbs(np.array([[1.0, 0, -1]]) / 2**0.5, csr_matrix([[1.0], [0.5], [0.0]]))
-    >>> len(arm)
-    1
-    """
+    """Straight pieces of limbs, and how far each vertex belongs to each of them."""
 
     directions: FloatArray
     """(s,3) unit vectors along the pieces, to either end, which their frames are found from.
@@ -80,11 +66,7 @@ class Limbs(Value):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class KnownLimbs(Limbs):
-    """Limbs that are known for some of the vertices, as from bones.
-
-    See Also
-    --------
-    limbs_of_bones : Takes them from bones.
+    """Limbs that are known for some of the vertices, as from bones by `limbs_of_bones`.
 
     Examples
     --------

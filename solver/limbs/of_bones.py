@@ -61,21 +61,10 @@ def limbs_of_bones(
 ) -> KnownLimbs:
     """Return the KnownLimbs of a mesh, one piece for each bone.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Rest positions.
-    weights : (n,b) scipy csr_matrix
-        How much each bone moves each vertex, not normalized.
-    heads, tails : (b,3) float arrays
-        Ends of the bones in the same coordinates and in the rest pose.
-    parents : (b,) int array
-        -1 for none.
-
-    Returns
-    -------
-    KnownLimbs
-        Known where a bone moves a vertex. Bones outside limbs have no shares.
+    `V`: (n,3), rest positions. `weights`: (n,b) scipy csr_matrix, how much each bone moves each
+    vertex, not normalized. `heads`, `tails`: (b,3), ends of the bones in the same coordinates and
+    in the rest pose. `parents`: (b,) int, -1 for none. Limbs are known where a bone moves a vertex;
+    bones outside limbs have no shares.
 
     Examples
     --------
@@ -115,7 +104,6 @@ def _usable(weights):
 
 
 def _measured(V, weights, heads, tails, parents):
-    """Return the _Measured bones."""
     count, means, spread = _spreads(V, weights)
     heads, tails = (vectors(ends, "the ends of bones") for ends in (heads, tails))
     along = tails - heads
@@ -308,7 +296,6 @@ def _from_the_root(parents):
 
 
 def _is_end(bone, bones):
-    """Return whether what follows a bone is only fingers, or nothing."""
     children = np.flatnonzero(bones.parents == bone)
     return (bones.widths[children] < bones.widths[bone]).all()
 

@@ -101,20 +101,10 @@ class Skeleton(NamedTuple):
 def limbs_of_shape(V, skin, links, part, normals, areas, walls=None):
     """Return the Limbs of a shape.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Rest positions in the unit box.
-    skin : SpokesAndRims
-        With the edges of the surface.
-    links : Links
-        To opposite sides, see `proxy/thickness.py`.
-    part : (n,) int array
-        Connected part of each vertex.
-    normals, areas : (n,3) and (n,) arrays
-        Of the vertices.
-    walls : Links, optional
-        Across which it is not far either, if the links are those of one side of walls.
+    `V`: (n,3), rest positions in the unit box. `skin`: SpokesAndRims, of the surface. `links`:
+    Links to opposite sides, see `proxy/thickness.py`. `part`: (n,) int. `normals`, `areas`: (n,3)
+    and (n,), of the vertices. `walls`: Links, optional, across which it is not far either, if the
+    links are those of one side of walls.
     """
     if len(links) < FEWEST:
         return no_limbs(len(V))
@@ -202,7 +192,6 @@ def skeleton_of(V, skin, links, part, normals, areas, walls=None):
 
 
 def _lengths(V, links):
-    """Return the lengths (n,n) of links between two vertices, both ways."""
     i, j = np.unique(np.sort(links.vertices[:, :2], axis=1), axis=0).T
     length = np.linalg.norm(V[i] - V[j], axis=1) + 1e-9
     one_way = sp.csr_matrix((length, (i, j)), shape=(len(V), len(V)))

@@ -23,13 +23,7 @@ THICKER = 1.2
 def without_shells(limbs, V, part, areas, thickness):
     """Return Limbs without those in parts that are shells.
 
-    Parameters
-    ----------
-    limbs : Limbs
-    V : (n,3) array
-    part : (n,) int array
-    areas, thickness : (n,) arrays
-        The thickness is infinite where it is unknown.
+    `V`: (n,3). `part`: (n,) int. `areas`, `thickness`: (n,), infinite where it is unknown.
     """
     if not len(limbs):
         return limbs

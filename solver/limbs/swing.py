@@ -46,7 +46,6 @@ def swung(directions, form):
 
 
 def _axes(directions):
-    """Return the nearest axes, with their signs."""
     found = np.zeros_like(directions)
     rows, axis = np.arange(len(found)), np.abs(directions).argmax(axis=1)
     found[rows, axis] = np.where(directions[rows, axis] < 0.0, -1.0, 1.0)
@@ -62,7 +61,6 @@ def _across(d):
 
 
 def _costs(d, form):
-    """Return c(d) (s,)."""
     a, b = _across(d)
     angles = np.arange(_NORMALS) * (2.0 * np.pi / _NORMALS)
     n = np.cos(angles)[:, None, None] * a + np.sin(angles)[:, None, None] * b

@@ -10,21 +10,8 @@ from ..inputs import whole_number
 def ball(vertices: int = 700) -> tuple[FloatArray, IntArray]:
     """Return a ball of radius 1 about the origin, whose vertices are evenly spread.
 
-    Parameters
-    ----------
-    vertices : int
-
-    Returns
-    -------
-    V : (vertices,3) numpy array
-        From the lowest along Z to the highest.
-    F : (m,3) numpy int array
-        Triangles, which face outward.
-
-    Raises
-    ------
-    CubicCraftError
-        There are fewer than 4 vertices.
+    Positions, from the lowest along Z to the highest, and triangles, which face outward; of 4
+    vertices at least.
 
     Examples
     --------

@@ -7,14 +7,15 @@ from typing import Any
 import numpy as np
 
 from ..aliases import FloatArray, IntArray
+from ..values import Value
 from .edges import edges_of
 
 FULL = 10.0
 """sharpness of a border, which is more than any level that is computed"""
 
 
-@dataclass(frozen=True, eq=False)
-class Cage:
+@dataclass(frozen=True, eq=False, repr=False)
+class Cage(Value):
     """The faces of a mesh, and how sharp their edges and corners stay on the smooth surface."""
 
     sizes: IntArray
@@ -46,12 +47,6 @@ class Cage:
     def edges(self) -> IntArray:
         """(e,2) int ends of the edges of the faces."""
         return edges_of(self.corners, self.corners[self.after], len(self.stiffness))[0]
-
-    def is_like(self, other: "Cage | None") -> bool:
-        """Return whether both are the same."""
-        return other is not None and all(
-            np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self)
-        )
 
     def count(self, levels: int) -> int:
         """Return the number of vertices after as many levels, edges of one face aside."""

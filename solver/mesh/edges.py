@@ -5,19 +5,12 @@ import numpy as np
 
 
 class Edges:
-    """The edges of triangles between n vertices.
+    """The edges of triangles F (m,3) between n vertices.
 
-    `F`: (m,3) int.
-
-    Attributes
-    ----------
-    lower, upper : (e,) int32 arrays
-        The ends of each edge, in ascending order; both are the same for the side of a collapsed
-        triangle.
-    number : (3,m) int array
-        The edge opposite each corner.
-    is_backward : (3,m) bool array
-        Where it runs from its upper to its lower end, in the direction of the triangle.
+    `lower`, `upper`: (e,) int32, the ends of each edge, in ascending order; both are the same for
+    the side of a collapsed triangle. `number`: (3,m) int, the edge opposite each corner.
+    `is_backward`: (3,m) bool, where it runs from its upper to its lower end, in the direction of
+    the triangle.
     """
 
     def __init__(self, F, n):

@@ -17,16 +17,9 @@ class FaceGraph:
 
     `V`: (n,3) float, positions in the unit box. `F`: (m,3) int.
 
-    Attributes
-    ----------
-    areas, normals, edges
-        As of `Triangles`.
-    one, other, edge : (k,) int arrays
-        Pairs of triangles that share an edge, and its number; of several, one of them.
-    length : (k,) array
-        Of that edge.
-    distance : (k,) array
-        Between the centroids, by way of the middle of the edge.
+    `areas`, `normals`, `edges`: as of `Triangles`. `one`, `other`, `edge`: (k,) int, pairs of
+    triangles that share an edge, and its number; of several, one of them. `length`: (k,), of that
+    edge. `distance`: (k,), between the centroids, by way of the middle of the edge.
     """
 
     def __init__(self, V, F):
@@ -70,7 +63,7 @@ class FaceGraph:
     def regions(self, is_joined):
         """Return the number of regions, and that of each triangle (m,), joined by pairs (k,)."""
         pairs = np.stack([self.one[is_joined], self.other[is_joined]], axis=1)
-        return components(np.empty((0, 3), np.int64), len(self.areas), pairs)
+        return components(pairs, len(self.areas))
 
     def is_convex(self, normals):
         """Return over which pairs (k,) a surface with normals (m,3) bends outward."""

@@ -80,7 +80,6 @@ def check_winding(F: IntArray, count: int) -> None:
 
 
 def _blocks(F: Any) -> list[NDArray[Any]]:
-    """Return the faces in blocks (k,s) of those with s corners."""
     refuse_mask(F, "triangles")
     try:
         F = np.asarray(F)
@@ -98,7 +97,6 @@ def _blocks(F: Any) -> list[NDArray[Any]]:
 
 
 def _block(F: NDArray[Any]) -> NDArray[Any]:
-    """Return faces with the same number of corners, if they are that."""
     if F.ndim != 2 or F.shape[1] < 3:
         raise CubicCraftError(f"triangles must have the shape (m, 3), not {F.shape}")
     if F.dtype.kind not in "iu":
@@ -107,7 +105,6 @@ def _block(F: NDArray[Any]) -> NDArray[Any]:
 
 
 def _triangles(V: FloatArray, block: NDArray[Any]) -> NDArray[Any]:
-    """Return the triangles (k,3) of a block of faces."""
     if block.shape[1] == 3:
         return block
     # Otherwise transposed triangles would pass as a few faces with very many corners.

@@ -124,7 +124,6 @@ def _sorted(key, bits):
 
 
 def _on_grid(corner):
-    """Return corners (m,3) in steps of the grid, as (3,m)."""
     return (corner.T * (float(1 << BITS) - 1.0)).astype(np.int32, order="C")
 
 

@@ -8,24 +8,9 @@ from .edge_vectors import double_area_vectors, edge_vectors
 
 
 def triangle_areas_and_normals(V: FloatArray, F: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Return the areas and unit normals of the triangles.
+    """Return the areas (m,) and unit normals (m,3) of triangles F (m,3) at positions V (n,3).
 
-    Parameters
-    ----------
-    V : (n,3) numpy array
-        Rest positions.
-    F : (m,3) numpy int array
-        Triangles.
-
-    Returns
-    -------
-    areas : (m,) numpy array
-    normals : (m,3) numpy array
-        Zero for triangles without area.
-
-    See Also
-    --------
-    auto_orient : Uses both.
+    The normals are zero for triangles without area.
 
     Examples
     --------

@@ -35,8 +35,7 @@ class Topology(Value):
         """Return the Topology with further pairs (p,2) of vertices connected."""
         if not len(pairs):
             return self
-        no_triangle, parts = np.empty((0, 3), np.int64), int(self.part.max()) + 1
-        count, of_part = components(no_triangle, parts, self.part[pairs])
+        count, of_part = components(self.part[pairs], int(self.part.max()) + 1)
         return Topology(self.F, self.part, count, of_part[self.part])
 
     @cached_property

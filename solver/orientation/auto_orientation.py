@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The orientation of the cube, or of another form, that best fits a shape."""
+"""The orientation of the cube, or of another form, that best fits a shape.
+
+If the shape is the form itself, turned, no other orientation costs as little: with the areas of its
+facets as weights, the cost is a mixed volume, which is least for equal bodies (Minkowski's first
+inequality; Schneider, "Convex Bodies: The Brunn-Minkowski Theory", 2014, section 7.2).
+"""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -9,28 +14,45 @@ from scipy.spatial.transform import Rotation
 from ..aliases import FloatArray
 from ..errors import CubicCraftError
 from ..inputs import instance, real_numbers, vectors
-from ..styles.cube import cost, nearest_to_identity
+from ..styles.clusters import binned
+from ..styles.forms import cube
 from ..styles.polytope import Polytope
-from .form_orientation import form_orientation
-from .orientation_search import binned, super_fibonacci
+from ..styles.symmetries import nearest_to_identity, symmetries
 
-SAMPLES = 100_000
-"""rotations over SO(3), a 24th of which are distinct for a cube: about 5 degrees apart"""
-CANDIDATES = 12
-"""samples that are refined"""
-BINS = 14
-"""per unit; the search groups normals into cells of the sphere"""
-SMOOTHING = 1e-4
-"""of the absolute value, in radians; only the refinement needs a derivative"""
+WORK, FINE_WORK = 1_000_000_000, 500_000
+"""largest number of products of a vertex and a normal in the search, and in a step of a descent"""
+SAMPLES = 30_000
+"""rotations over SO(3): about 8 degrees apart; fewer if they would be too much work"""
+FEWEST = 500
+"""rotations, even if they are more work"""
+PART = 200_000
+"""products or traces at a time, so that they stay in the cache"""
+CONSIDERED = 400
+"""best samples; of those that are almost equivalent, only the first is refined"""
+APART = 0.2, 0.02
+"""radians between those that are refined, and between those that are refined again"""
+CANDIDATES, FINALISTS = 16, 4
+"""samples that are refined, and those of them that are refined again with more directions"""
+OTHER_WORK = 20
+"""products that take as long as the rest of the step with a normal"""
+COARSE = 6
+"""cells of the sphere per unit in the search"""
+FINE = 1000, 30, 20, 14, 10
+"""the same for the finalists: as many as are not too much work; with the first, only flat sides
+become one direction"""
+TEMPERATURES = 1e-2, 1e-3, 1e-4, 1e-5
+"""of the smoothed maximum over the vertices, relative to the size of the form, one after the other;
+with the last, the result is off by about 0.001 degrees"""
+ASIDE = np.array([4e-3, -7e-3, 5e-3])
+"""turn before each descent, in radians: between two equally good orientations there is no slope"""
 
 
 def auto_orient(normals: ArrayLike, areas: ArrayLike, form: Polytope | None = None) -> FloatArray:
     """Return the orientation whose axes best fit the normals.
 
-    It minimizes ``sum_i a_i |Q n_i|_1`` over all rotations, by a search over evenly spread samples
-    and descent from the best of them. Of the 24 equivalent rotations of a cube, it returns the
-    one nearest to the identity. Another form has its own cost, ``sum_i a_i h(Q n_i)``, and its own
-    symmetries.
+    It minimizes ``sum_i a_i h(Q n_i)`` over all rotations, where the cost h of the cube is |x|_1,
+    by a search over evenly spread samples and descent from the best of them. Of the rotations that
+    are equivalent for the form, it returns the one nearest to the identity.
 
     Parameters
     ----------
@@ -45,18 +67,7 @@ def auto_orient(normals: ArrayLike, areas: ArrayLike, form: Polytope | None = No
     Returns
     -------
     Q : (3,3) numpy array
-        Rotation that maps a vector into the frame of the cube; its rows are the cube's axes. Or
-        into that of the form.
-
-    Raises
-    ------
-    CubicCraftError
-        An argument has another type or shape.
-
-    See Also
-    --------
-    triangle_areas_and_normals : Computes both inputs.
-    nearest_to_identity : Chooses among equivalent rotations.
+        Rotation that maps a vector into the frame of the form; its rows are the form's axes.
 
     Notes
     -----
@@ -76,58 +87,112 @@ def auto_orient(normals: ArrayLike, areas: ArrayLike, form: Polytope | None = No
     normals, areas = vectors(normals, "the normals"), real_numbers(areas, "the areas")
     if areas.shape != (len(normals),):
         raise CubicCraftError(f"the areas must have the shape ({len(normals)},), not {areas.shape}")
-    if form is not None:
-        return form_orientation(normals, areas, instance(form, "form", Polytope))
-    directions, weights = binned(normals, areas, BINS)
-    if not len(directions):
+    form = cube() if form is None else instance(form, "form", Polytope)
+    coarse = binned(normals, areas, COARSE)
+    if not len(coarse[0]):
         return np.eye(3)
-    samples = _distinct(super_fibonacci(SAMPLES))
-    costs = np.concatenate(
-        [_costs(part, directions, weights) for part in np.array_split(samples, 32)]
-    )
-    starts = samples[np.argsort(costs, kind="stable")[:CANDIDATES]]
-    refined = [_refined(Q, directions, weights) for Q in starts]
-    refined.sort(key=lambda Q: _cost(Q, directions, weights))
-    best = min(
-        (_refined(Q, normals, areas) for Q in (*refined[:2], np.eye(3))),
-        key=lambda Q: _cost(Q, normals, areas),
-    )
-    return nearest_to_identity(best)
+    samples = _samples(len(coarse[0]), form)
+    costs = _costs(samples, *coarse, form)
+    starts = samples[np.argsort(costs, kind="stable")[:CONSIDERED]]
+    starts = _apart(starts, form, APART[0])[:CANDIDATES]
+    refined = [_refined(Q, *coarse, form, TEMPERATURES[:2]) for Q in starts]
+    refined.sort(key=lambda Q: _cost(Q, *coarse, form))
+    refined = _apart(np.array(refined), form, APART[1])[:FINALISTS]
+    fine = _fine(normals, areas, form)
+    finer = [_refined(Q, *fine, form, TEMPERATURES) for Q in (*refined, np.eye(3))]
+    best = min((np.eye(3), *finer), key=lambda Q: _cost(Q, normals, areas, form))
+    return nearest_to_identity(best, form)
 
 
-def _cost(Q, normals, areas):
-    return float(areas @ cost(normals @ Q.T))
+def _samples(directions, form):
+    """Return rotations (k,3,3), of all equivalent ones only those nearest to the identity."""
+    same = symmetries(form)
+    affordable = WORK * len(same) // (directions * len(form.vertices))
+    count = max(min(SAMPLES, affordable), FEWEST)
+    samples = Rotation.from_quat(_super_fibonacci(count)).as_matrix()
+    parts = np.array_split(samples, count * len(same) // PART + 1)
+    return np.concatenate([part[_is_nearest(part, same)] for part in parts])
 
 
-def _costs(Qs, normals, areas):
-    return np.abs(np.einsum("kij,nj->kin", Qs, normals)).sum(axis=1) @ areas
+def _is_nearest(Qs, same):
+    """Return which rotations (k,3,3) are nearest to the identity of those that are equivalent."""
+    traces = Qs.reshape(-1, 9) @ same.swapaxes(1, 2).reshape(-1, 9).T  # of S Q
+    return traces[:, 0] >= traces.max(axis=1) - 1e-12
 
 
-def _refined(Q, normals, areas):
-    """Descend from Q; the absolute value is smoothed so that there is a gradient."""
-    scale = areas.sum()
+def _apart(Qs, form, angle):
+    """Return those of the rotations (k,3,3) that are not almost equivalent to earlier ones."""
+    same, kept = symmetries(form), []
+    is_left = np.ones(len(Qs), bool)
+    while is_left.any():
+        Q = Qs[is_left.argmax()]
+        kept.append(Q)
+        traces = Qs.reshape(-1, 9) @ (same @ Q).reshape(-1, 9).T
+        is_left &= traces.max(axis=1) < 1.0 + 2.0 * np.cos(angle)
+    return kept
 
-    def objective(w):
-        R = Rotation.from_rotvec(w).as_matrix() @ Q
-        x = normals @ R.T
-        smooth = np.sqrt(x * x + SMOOTHING**2)
-        # d/dw at w of sum smooth(x): x turns by dw x x, so the gradient is sum x x (x / smooth)
-        torque = np.cross(x, x / smooth)
-        return areas @ smooth.sum(axis=1) / scale, areas @ torque / scale
 
-    for _ in range(4):  # the gradient is exact at w = 0 only, so start again from the result
-        result = minimize(objective, np.zeros(3), jac=True, method="L-BFGS-B")
-        Q = Rotation.from_rotvec(result.x).as_matrix() @ Q
+def _fine(normals, areas, form):
+    *more, least = FINE
+    for bins in more:
+        found = binned(normals, areas, bins)
+        if len(found[0]) * (len(form.vertices) + OTHER_WORK) <= FINE_WORK:
+            return found
+    return binned(normals, areas, least)
+
+
+def _costs(Qs, normals, areas, form):
+    vertices = (form.vertices @ Qs).astype(np.float32)
+    directions, weights = normals.T.astype(np.float32), areas.astype(np.float32)
+    parts = np.array_split(vertices, vertices[..., 0].size * len(normals) // PART + 1)
+    return np.concatenate([(part @ directions).max(axis=1) @ weights for part in parts])
+
+
+def _cost(Q, normals, areas, form):
+    parts = len(normals) * len(form.vertices) // PART + 1
+    pairs = zip(np.array_split(normals, parts), np.array_split(areas, parts), strict=True)
+    return sum(float(a @ form.cost(n @ Q.T)) for n, a in pairs)
+
+
+def _refined(Q, normals, areas, form, temperatures):
+    vertices, weights = form.vertices / form.radius, areas / areas.sum()
+    for temperature in temperatures:
+        Q = _descended(Q, normals, weights, vertices, temperature)
     return Q
 
 
-def _distinct(quaternions):
-    """Return the matrices (k,3,3) of those nearest to the identity among their 24."""
-    size = np.abs(quaternions)
-    imaginary, real = size[:, :3], size[:, 3]
-    others = np.maximum(
-        np.maximum(imaginary.max(axis=1), size.sum(axis=1) / 2),
-        np.maximum(real + imaginary.max(axis=1), np.sort(imaginary, axis=1)[:, 1:].sum(axis=1))
-        / np.sqrt(2),
+def _descended(Q, normals, weights, vertices, temperature):
+    def objective(w):
+        x = normals @ (Rotation.from_rotvec(w).as_matrix() @ Q).T
+        heights = x @ vertices.T
+        largest = heights.max(axis=1)
+        shares = np.exp((heights - largest[:, None]) / temperature)
+        sums = shares.sum(axis=1)
+        smooth = largest + temperature * np.log(sums)
+        # x turns by dw x x, and its cost changes as that of s.x, with s the mean of the vertices
+        torque = np.cross(x, shares @ vertices / sums[:, None])
+        return weights @ smooth, weights @ torque @ _left_jacobian(w)
+
+    result = minimize(objective, ASIDE, jac=True, method="L-BFGS-B")
+    return Rotation.from_rotvec(result.x).as_matrix() @ Q
+
+
+def _left_jacobian(w):
+    """Return J (3,3): if the rotation vector w changes by dw, it turns further by J dw."""
+    angle = np.linalg.norm(w)
+    if angle < 1e-6:
+        return np.eye(3)
+    W = np.cross(np.eye(3), w)
+    return (
+        np.eye(3)
+        + (1.0 - np.cos(angle)) / angle**2 * W
+        + (angle - np.sin(angle)) / angle**3 * W @ W
     )
-    return Rotation.from_quat(quaternions[real >= others]).as_matrix()
+
+
+def _super_fibonacci(count):
+    """Return evenly spread unit quaternions (count,4), scalar last."""
+    s = np.arange(count) + 0.5
+    a, b = 2 * np.pi * s / np.sqrt(2), 2 * np.pi * s / 1.533751168755204288
+    r, t = np.sqrt(s / count), np.sqrt(1 - s / count)
+    return np.stack([r * np.sin(a), r * np.cos(a), t * np.sin(b), t * np.cos(b)], axis=1)

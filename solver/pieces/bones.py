@@ -9,6 +9,7 @@ import numpy as np
 
 from ..aliases import FloatArray, IntArray
 from ..rotation_fit import svd_rotations
+from ..values import is_same
 from .placement import Placement
 from .whole import Whole
 
@@ -67,11 +68,9 @@ class Bones:
 
     def is_like(self, other: "Bones | None") -> bool:
         """Return whether both have the same bones and weights."""
-        return (
-            other is not None
-            and self.places == other.places
-            and all(map(np.array_equal, self.weights, other.weights))
-        )
+        if other is None:
+            return False
+        return is_same((self.places, self.weights), (other.places, other.weights))
 
     @cached_property
     def limbs(self) -> "KnownLimbs":
@@ -96,7 +95,8 @@ class Bones:
         limbs, A = self.limbs, self.alone.linear
         if self.pose is not None:
             maps = self._all.of_pose(np.reshape(self.pose, (-1, 4, 4)))[:, :3, :3]
-            limbs = limbs.turned(_rotations(A @ maps @ np.linalg.inv(A)))
+            maps = A @ maps @ np.linalg.inv(A)
+            limbs = limbs.turned(svd_rotations(maps.swapaxes(1, 2)))
         if placement.shape_key != self.alone.shape_key:
             from ..limbs import placed_limbs
 
@@ -111,19 +111,10 @@ class Bones:
         return other
 
 
-def _rotations(maps):
-    """Return the rotations nearest to maps (s,3,3)."""
-    return svd_rotations(maps.swapaxes(1, 2))
-
-
 class _Images:
     """Bones with those of the images that a Mirror modifier adds, s of them.
 
-    Attributes
-    ----------
-    ends_and_parents : tuple
-        Heads (s,3), tails (s,3) and parents (s,).
-    weights : (N,s) csr_matrix
+    `ends_and_parents`: heads (s,3), tails (s,3) and parents (s,). `weights`: (N,s) csr_matrix.
     """
 
     def __init__(self, places: BonePlaces, weights: Weights, whole: Whole):

@@ -80,8 +80,7 @@ def _figures(rest, of_vertex, count):
     """Return the figure (p,) that each piece is part of: they are linked, one by one."""
     number = rest.topology.component
     pairs = np.unique(np.column_stack([of_vertex[rest.used], count + number]), axis=0)
-    nothing = np.empty((0, 3), np.int64)
-    _, found = components(nothing, count + rest.topology.component_count, pairs)
+    _, found = components(pairs, count + rest.topology.component_count)
     return np.unique(found[:count], return_inverse=True)[1].ravel()
 
 

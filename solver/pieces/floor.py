@@ -52,7 +52,7 @@ class Floor:
         self._height = float(np.ptp(self._before[is_part[self._component]]))
         self._ground = lowest[is_part].min()
         is_low = lowest <= self._ground + _STANDING * self._height
-        self._is_moved = is_low & is_part & ~setup.is_anchored
+        self._is_moved = is_low & is_part & ~setup.global_step.is_anchored
 
     def kept(self, positions: FloatArray, *, only_standing: bool = False) -> FloatArray:
         """Return positions (N,3) of a run, with each foot moved back to its height.
@@ -97,7 +97,7 @@ class Floor:
         F = rest.shown
         edges = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
         edges = edges[is_solved[edges].all(axis=1)]
-        _, part = components(np.empty((0, 3), np.int64), len(rest.V), edges)
+        _, part = components(edges, len(rest.V))
         _, zone = np.unique(part[self._place], return_inverse=True)
         is_foot = np.zeros(zone.max() + 1, dtype=bool)
         is_foot[zone[self._is_near(_FOOT)]] = True
@@ -111,7 +111,6 @@ class Floor:
         )
 
     def _rises(self, after):
-        """Return by how much vertices (k,) are to be lowered."""
         at = np.flatnonzero(self._zone >= 0)
         zone, feet = self._zone[at], self._zone.max() + 1
         rise = _lowest(after[at], zone, feet) - _lowest(self._before[at], zone, feet)
@@ -146,7 +145,6 @@ class Floor:
 
 
 def _lowest(values, group, count):
-    """Return the least of the values (k,) in each group, (count,)."""
     lowest = np.full(count, np.inf)
     np.minimum.at(lowest, group, values)
     return lowest

@@ -79,10 +79,6 @@ def piece_of(
         The mesh is invalid, an array has another shape or other values than it asks for, a vertex
         belongs to a handle that is not there, or a style differs from vertex to vertex.
 
-    See Also
-    --------
-    join_pieces : Joins pieces, to solve them together.
-
     Examples
     --------
     A mirror completes a half, with which it is solved:
@@ -161,7 +157,6 @@ def _several(values, name, kind):
 
 
 def _factors(values, name, count):
-    """Return factors (n,) of the vertices, or 1 for all."""
     if values is None:
         return 1.0
     factors = real_numbers(values, name)
@@ -190,7 +185,6 @@ def _shares(values, count, regions):
 
 
 def _uniform(style, name):
-    """Return a Style that is the same for all vertices, with its only form and capture."""
     forms, captures = instance(style, name, Style).forms, style.captures
     numbers = style.cubeness, style.capture_strength, style.crispness, style.detail_strength
     is_one = not any(map(np.ndim, numbers)) and np.shape(style.orientation) == (3, 3)

@@ -15,16 +15,7 @@ IDENTITY = tuple(np.eye(4).ravel().tolist())
 
 @dataclass(frozen=True, kw_only=True)
 class HandlePose:
-    """How a handle keeps or moves its vertices.
-
-    Raises
-    ------
-    CubicCraftError
-        The matrix is not one of finite numbers.
-
-    See Also
-    --------
-    piece_of : An object with handles.
+    """How a handle of `piece_of` keeps or moves its vertices.
 
     Examples
     --------

@@ -70,7 +70,6 @@ def _joined_cubeness(found, counts):
 
 
 def _joined(found, counts):
-    """Return the orientations of all vertices, or one for all."""
     first = found[0].orientation[0]
     # Ignore rounding errors of world matrices.
     if all(np.allclose(style.orientation, first, rtol=0.0, atol=1e-6) for style in found):

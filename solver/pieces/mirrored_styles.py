@@ -55,7 +55,6 @@ def _placed(reflection, placement):
 
 
 def _look_alike(turn, placement):
-    """Return whether all forms look the same after a turn or reflection."""
     is_captured = placement.style.capture is not None
     for style in placement.styles:
         Q = np.asarray(style.orientation)

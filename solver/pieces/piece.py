@@ -22,11 +22,8 @@ from .whole import Whole
 class Piece:
     """An object with its handles, regions and symmetry, as plain values.
 
-    It has n vertices. With those that its mirrors add, which follow them, N are solved.
-
-    See Also
-    --------
-    piece_of : Makes one.
+    `piece_of` makes one. It has n vertices. With those that its mirrors add, which follow them, N
+    are solved.
 
     Examples
     --------
@@ -133,20 +130,10 @@ class Piece:
         *,
         is_idle: bool = False,
     ) -> tuple[FloatArray, Any]:
-        """Return a result in the coordinates of the object.
+        """Return a result, (n,3) and (n,3,3) or None, in the coordinates of the object.
 
-        Parameters
-        ----------
-        positions, at_rest : (N,3) arrays
-            Of the result and before, where it was solved.
-        rotations : (N,3,3) array, optional
-        is_held : (N,) bool array
-        is_idle : bool
-            Whether nothing was to change.
-
-        Returns
-        -------
-        (n,3) array of the type of the shape, and (n,3,3) array or None
+        `positions`, `at_rest`: (N,3), of the result and before, where it was solved. `rotations`:
+        (N,3,3), or None. `is_held`: (N,) bool. `is_idle`: whether nothing was to change.
         """
         n = self.vertices
         # Held vertices must not move by rounding errors of the placement.

@@ -101,7 +101,6 @@ class Placement:
 
 
 def _key_of(values):
-    """Return the key of the only value, None for none."""
     return values[0].key if values else None
 
 

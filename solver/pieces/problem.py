@@ -34,11 +34,7 @@ if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Problem(Generic[P]):
-    """Pieces joined into one mesh, with everything that is computed once per shape and handles.
-
-    See Also
-    --------
-    join_pieces : Makes one, with an example.
+    """Pieces that `join_pieces` has joined, and all that is computed once per shape and handles.
 
     Examples
     --------
@@ -118,12 +114,7 @@ class Problem(Generic[P]):
         return not self.planes or suits(self.planes, _positions(pieces))
 
     def stylization(self, options: SolverOptions | None = None) -> Stylization:
-        """Return a new Stylization of the pieces.
-
-        Parameters
-        ----------
-        options : SolverOptions, optional
-            By default, each component keeps its orientation.
+        """Return a new Stylization of the pieces; by default, components keep their orientation.
 
         Raises
         ------
@@ -139,10 +130,7 @@ class Problem(Generic[P]):
     def posed(self, pieces: Sequence[P]) -> Problem[P]:
         """Return the same objects in another pose and with other settings, without a factorization.
 
-        Parameters
-        ----------
-        pieces : sequence of Piece
-            With the shape and the placements of that pose; the rest is as in the first.
+        `pieces`: with the shape and the placements of that pose; the rest is as in the first.
         """
         begin = time.perf_counter()
         setup = without_holds = self.without_holds.posed(_positions(pieces))
@@ -195,12 +183,10 @@ def join_pieces(
     *,
     keep_symmetric: bool = False,
 ) -> Problem[P]:
-    """Join pieces into one mesh, and factorize it.
+    """Join pieces, which are in the same coordinates, into one mesh, and factorize it.
 
     Parameters
     ----------
-    pieces : sequence of Piece
-        In the same coordinates.
     proxy : ProxyOptions, optional
         How to prepare the surface; by default as in the extension.
     earlier : sequence of Problem
@@ -212,10 +198,6 @@ def join_pieces(
     ------
     CubicCraftError
         They cannot be solved; the message has their names.
-
-    See Also
-    --------
-    piece_of : Makes a piece.
 
     Examples
     --------
@@ -244,7 +226,8 @@ def join_pieces(
     pieces = cast("Sequence[P]", instances(pieces, "pieces", Piece))
     for one in earlier:
         instance(one, "earlier", Problem)
-    is_still, is_held = _is_still(pieces), _is_held(pieces)
+    is_still = np.concatenate([piece.everywhere(piece.is_still) for piece in pieces])
+    is_held = _is_held(pieces)
     try:
         rest = _rest(pieces, proxy, earlier)
         planes = _planes(pieces, rest, earlier) if keep_symmetric else None
@@ -301,7 +284,6 @@ def _planes(pieces, rest, earlier):
 
 
 def _faces(pieces):
-    """Return which face each triangle is a piece of; None if all are whole."""
     if all(piece.whole.faces is None for piece in pieces):
         return None
     found, begin = [], 0
@@ -316,12 +298,7 @@ def _positions(pieces):
     return np.concatenate([piece.V for piece in pieces])
 
 
-def _is_still(pieces):
-    return np.concatenate([piece.everywhere(piece.is_still) for piece in pieces])
-
-
 def _is_held(pieces):
-    """Return which of the solved vertices handles hold."""
     return np.concatenate([piece.everywhere(piece.is_held) for piece in pieces])
 
 
@@ -357,7 +334,6 @@ def _with_holds(setup, holds, earlier):
 
 
 def _mirrors(pieces):
-    """Return the Mirrors of all pieces in the coordinates in which they are solved."""
     total, found = sum(piece.solved for piece in pieces), []
     for piece, part in parts_of(pieces):
         whole = piece.whole

@@ -43,7 +43,9 @@ def far_from(seeds: IntArray, V: FloatArray, F: IntArray) -> FloatArray:
     It is measured along edges, because an arm is far from the hip beside it; for unconnected parts,
     it is the straight distance.
     """
-    from ..mesh.edge_distances import edge_distances, nearest_distances
+    from scipy.spatial import KDTree
+
+    from ..mesh.edge_distances import edge_distances
 
     if not len(seeds) or not len(F):
         return np.zeros(len(V))
@@ -51,7 +53,7 @@ def far_from(seeds: IntArray, V: FloatArray, F: IntArray) -> FloatArray:
     is_apart = np.isinf(distance)
     largest = distance[~is_apart].max()
     if is_apart.any():
-        distance[is_apart] = nearest_distances(V[is_apart], V[seeds])
+        distance[is_apart] = KDTree(V[seeds]).query(V[is_apart])[0]
     if not largest > 0.0:
         largest = float(distance.max())
     if not largest > 0.0:

@@ -14,18 +14,13 @@ from ..symmetry import Mirror
 
 @dataclass(frozen=True)
 class Reflection:
-    """A reflection x -> A x + b in object coordinates, as plain numbers.
-
-    See Also
-    --------
-    flip : Makes one.
+    """A reflection x -> A x + b in object coordinates, as plain numbers; `flip` makes one.
 
     Examples
     --------
-    >>> import numpy as np
     >>> from solver import flip
-    >>> flip(0).image(np.array([[1.0, 2, 3]])).tolist()
-    [[-1.0, 2.0, 3.0]]
+    >>> flip(0).linear
+    (-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
     """
 
     linear: tuple[float, ...]
@@ -83,16 +78,7 @@ class Reflection:
 
 
 def flip(axis: int) -> Reflection:
-    """Return the reflection along an axis of the object, about its origin.
-
-    Raises
-    ------
-    CubicCraftError
-        The axis is none of 0, 1 and 2.
-
-    See Also
-    --------
-    piece_of : An object with mirrors.
+    """Return the reflection along an axis of the object, 0, 1 or 2, about its origin.
 
     Examples
     --------

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..aliases import FloatArray, IntArray
 from ..mesh.catmull_clark import Cage
+from ..values import is_same
 from .reflection import Reflection
 from .subdivided import Subdivided
 from .whole import Whole
@@ -34,15 +35,8 @@ class Shape:
 
     def is_like(self, other: "Shape") -> bool:
         """Return whether both are the same, bit for bit."""
-        if self is other:
-            return True
-        is_same = self.original.tobytes() == other.original.tobytes()
-        is_same &= other.cage is None if self.cage is None else self.cage.is_like(other.cage)
-        if self.faces is None or other.faces is None:
-            is_same &= self.faces is other.faces
-        else:
-            is_same &= np.array_equal(self.faces, other.faces)
-        return is_same and np.array_equal(self.triangles, other.triangles)
+        values = ([x.original, x.triangles, x.cage, x.faces] for x in (self, other))
+        return self is other or is_same(*values)
 
     def whole(
         self, reflections: Sequence[Reflection], symmetry: Sequence[bool], *, is_smooth: bool

@@ -24,16 +24,8 @@ class Whole:
     `original`: (n,3), object coordinates. `triangles`: (m,3) int. `reflections`: reflections to
     add: the first of the mesh, the second of both, and so on. `symmetry`: about which axes of the
     object the mesh itself is to be symmetric. `face_of`: (m,) int, the face of the mesh that each
-    triangle is a piece of.
-
-    Attributes
-    ----------
-    reflections
-        As given.
-    added : tuple of Reflection
-        Those that commute with each other, by which it grows.
-    mirrored : tuple of Reflection
-        All about which it is to stay symmetric.
+    triangle is a piece of. `added`: tuple of Reflection, those that commute with each other, by
+    which it grows. `mirrored`: tuple of Reflection, all about which it is to stay symmetric.
     """
 
     def __init__(

@@ -46,7 +46,6 @@ def box_frames(V, F, part):
 
 
 def _largest(of_face, area, unit, count):
-    """Return the direction (count,3) of the largest triangle of each part."""
     largest = np.zeros(count)
     np.maximum.at(largest, of_face, area)
     is_largest = (area == largest[of_face]) & (area > 0.0)

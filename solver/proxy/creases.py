@@ -79,12 +79,10 @@ def mute_sides(V, F):
 
 
 def _corners(F):
-    """Return the corners of the triangles, (3,m), as NumPy's indices."""
     return F.T.astype(np.intp, order="C")
 
 
 def _at_vertices(corners, values, n):
-    """Return the sums (n,) of values (3,m) at corners (3,m)."""
     return np.bincount(corners.ravel(), values.ravel(), n)
 
 

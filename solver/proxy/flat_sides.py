@@ -33,9 +33,8 @@ def stiffness(triangles, part):
     areas, normals = triangles.areas, triangles.normals
     one, other = triangles.edges.triangles()
     is_flat = dot(*columns(take(normals, one)), *columns(take(normals, other))) > COPLANAR
-    no_triangle = np.empty((0, 3), np.int64)
     pairs = np.stack([one[is_flat], other[is_flat]], axis=1)
-    count, side = components(no_triangle, len(areas), pairs)
+    count, side = components(pairs, len(areas))
     of_face = triangles.parts(part)
     of_part = np.bincount(of_face, areas)
     share = np.bincount(side, areas, count)[side] / np.maximum(of_part[of_face], 1e-300)

@@ -29,15 +29,6 @@ class InputMap(Value):
     order: IntArray | None = None
     """(n,) int index of each solved vertex among them; None for the same order"""
 
-    def ordered(self, order):
-        """Return the map with its solved vertices in another order (n,)."""
-        return InputMap(self.group, self.first, self.parents, self.rounds, order)
-
-    @property
-    def is_plain(self):
-        """Whether each solved vertex is one vertex of the input."""
-        return not len(self.parents) and len(self.first) == np.count_nonzero(self.group >= 0)
-
     @property
     def source(self):
         """(n,) int a vertex of the input that represents each solved vertex."""
@@ -59,9 +50,9 @@ class InputMap(Value):
 
     def spread(self, values):
         """Return values (N,...) of the input at the solved vertices (n,...), averaged."""
-        if self.is_plain:
-            return values[self.source]
         used = np.flatnonzero(self.group >= 0)
+        if not len(self.parents) and len(self.first) == len(used):
+            return values[self.source]
         flat = values[used].reshape(len(used), -1)
         count = np.bincount(self.group[used], minlength=len(self.first))
         columns = [np.bincount(self.group[used], x, len(self.first)) / count for x in flat.T]

@@ -26,24 +26,10 @@ _BLOCK = 1 << 18  # pairs that are compared at once
 class NearestTriangles:
     """The search from some vertices.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Rest positions in the unit box.
-    corners : (m,3) int array
-        Triangles.
-    part : (n,) int array
-    chosen : (k,) int array
-        The vertices to search from.
-    sizes : (p,) array
-        Extents of the parts.
-    reach : callable
-        Maps an extent to how far (k,) a part of this extent, or less, is searched for.
-
-    Attributes
-    ----------
-    triangle : (k,) int array
-        The nearest triangle of another part within reach of each, or -1.
+    `V`: (n,3), rest positions in the unit box. `corners`: (m,3) int, triangles. `part`: (n,) int.
+    `chosen`: (k,) int, the vertices to search from. `sizes`: (p,), extents of the parts. `reach`:
+    callable, maps an extent to how far (k,) a part of this extent, or less, is searched for.
+    `triangle`: (k,) int, the nearest triangle of another part within reach of each, or -1.
     """
 
     def __init__(self, V, corners, part, chosen, sizes, reach):
@@ -82,7 +68,6 @@ class NearestTriangles:
         return self._chosen[rows], self.triangle[rows], *self._ways(rows, self.triangle[rows])
 
     def _places(self, triangles):
-        """Return the places (k,3) of the corners of triangles (k,), as `by_columns` has them."""
         return [take(self._V, self._corners[triangles, k]) for k in range(3)]
 
     def _ways(self, rows, triangles):
@@ -170,7 +155,6 @@ class NearestTriangles:
 
 
 def _squared(d):
-    """Return the squared sizes (k,) of vectors (k,3)."""
     return dot(*columns(d), *columns(d))
 
 

@@ -41,16 +41,8 @@ _PARALLEL = 0.5  # cosine between the normals of layers
 def neighbor_links(V, F, normals, areas, part, count):
     """Return links between neighbors of different parts.
 
-    Parameters
-    ----------
-    V : (n,3) float array
-        Rest positions in the unit box.
-    F : (m,3) int array
-    normals : (n,3) float array
-        Unit normals, or zero.
-    areas : (n,) float array
-    part : (n,) int array
-        Connected part of each vertex, of `count` parts.
+    `V`: (n,3), rest positions in the unit box. `F`: (m,3) int. `normals`: (n,3), unit normals, or
+    zero. `areas`: (n,). `part`: (n,) int, connected part of each vertex, of `count` parts.
     """
     if count < 2 or not len(F):
         return no_links()

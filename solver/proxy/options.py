@@ -12,18 +12,9 @@ from ..method import Method
 
 @dataclass(frozen=True, kw_only=True)
 class ProxyOptions:
-    """How to prepare a surface for the solver.
+    """How `rest_mesh` prepares a surface for the solver.
 
     The defaults are those of the extension. `PAPER` turns everything off.
-
-    Raises
-    ------
-    CubicCraftError
-        The solidity or the detail is negative or not finite, or an option has another type.
-
-    See Also
-    --------
-    rest_mesh : Builds the proxy with these options.
 
     Examples
     --------

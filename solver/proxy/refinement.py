@@ -75,7 +75,6 @@ def refine(V, F, bound, parts=1):
 
 
 def _ratios(V, F, bound):
-    """Return the length (m,3) of the side opposite each corner, relative to its bound."""
     lengths = np.empty(F.shape)
     for block, sides in edge_vectors(V, F):
         lengths[block] = np.sqrt((sides * sides).sum(axis=1)).T

@@ -71,7 +71,7 @@ def surface_of(V, F, options, faces=None) -> Surface:
     if order is not None:
         number = np.empty(len(order), dtype=np.int32)
         number[order] = np.arange(len(order), dtype=np.int32)
-        input_map, at, F = input_map.ordered(order), at[order], number[F]
+        input_map, at, F = replace(input_map, order=order), at[order], number[F]
         unrefined = None if unrefined is None else number[unrefined]
     return Surface(input_map, box, at, F, unrefined, pieces, faces)
 

@@ -22,6 +22,7 @@ As next to no vertex of the part lies inside the ball, a link does not cross ano
 import numpy as np
 
 from ..algebra import columns, dot
+from ..mesh.components import components
 from .links import links_between
 from .nearest import Nearest
 from .samples import surface_samples
@@ -170,12 +171,7 @@ def _holes(V, start, end, part, count):
     """
     if not len(start):
         return np.zeros(count), np.zeros(count)
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    n = len(V)
-    graph = coo_matrix((np.ones(len(start)), (start, end)), shape=(n, n))
-    _, loop = connected_components(graph, directed=False)
+    _, loop = components(np.stack([start, end], axis=1), len(V))
     loop = np.unique(loop[start], return_inverse=True)[1].ravel()
     sizes = np.bincount(loop)
     middle = np.stack([np.bincount(loop, x) / sizes for x in V[start].T], axis=1)[loop]

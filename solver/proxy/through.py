@@ -28,7 +28,7 @@ def links_through(V, F, part, count, links, areas, spacing):
     part of each vertex, of `count` parts. `areas`, `spacing`: (n,), of the vertices, and the
     distance between them.
     """
-    group = components(np.empty((0, 3), np.int64), count, part[links.pairs()])[1]
+    group = components(part[links.pairs()], count)[1]
     of_face = group[part[F[:, 0]]]
     is_asked = of_face != np.bincount(of_face).argmax()
     if count <= FEW and is_asked.any():

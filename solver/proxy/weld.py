@@ -45,14 +45,13 @@ def _of_one_part(label, F):
     nodes = len(F) + len(label)
     at = np.stack([np.repeat(np.arange(len(F)), 3), len(F) + F.ravel()], axis=1)
     pairs = np.concatenate([np.stack([one, other], axis=1), at])
-    _, part = components(np.empty((0, 3), np.int64), nodes, pairs)
+    _, part = components(pairs, nodes)
     key = label * nodes + part[len(F) :]
     _, first, group = np.unique(key, return_index=True, return_inverse=True)
     return np.argsort(np.argsort(first))[group.ravel()]
 
 
 def _tolerance(V, F, part):
-    """Return the largest distance of vertices to be merged."""
     side = columns(V).take(F[:, 1], axis=1) - columns(V).take(F[:, 0], axis=1)
     length, owner = np.sqrt(dot(*side, *side)), part[F[:, 0]]
     mean = np.bincount(owner, length) / np.maximum(np.bincount(owner), 1)

@@ -28,12 +28,6 @@ or mirrored S) is left to the ADMM of `admm.py`.
 
 For the cube the faces are found from s itself: s_k is the sign of x_k, but anything in [-1, 1] on
 the active axes, those with x_k = 0, of which a vertex has none, an edge one and a facet two.
-
-Compared with an ADMM with a warm start and a relative tolerance of 1e-5, this takes 1.4 to 3 steps
-instead of 6 to 18 Newton steps, and a local step is 2.2 to 2.8 times faster (bunny and armadillo,
-cubeness 0.2; horse, 0.4). No objective lies above that of an ADMM with a tolerance of 1e-10 by more
-than 2e-12 of its size, where before a quarter to two thirds did so by more than 1e-9. On these
-meshes nothing is left to the ADMM.
 """
 
 from dataclasses import dataclass

@@ -27,33 +27,9 @@ def blended(styles, weights):
     The cubeness is the weighted mean. Of the forms, the two with the largest shares count, in steps
     of 1/8.
 
-    Parameters
-    ----------
-    styles : sequence of Style
-        Each with one cubeness and one form.
-    weights : (n,k) numpy array
-        Share of each style; each row adds up to 1.
-
-    Returns
-    -------
-    cubeness : (n,) array
-    orientation : (1,3,3) or (n,3,3) array
-    bodies : list of Polytope or None
-        None for the cube.
-    body_of : (n,) int array
-        Number of the body of each vertex.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from solver import Style
-    >>> from solver.styles.blending import blended
-    >>> from solver.styles.forms import octahedron
-    >>> cube, gem = Style(0.4), Style(0.2, form=octahedron())
-    >>> weights = np.array([[1.0, 0.0], [0.0, 1.0], [0.5, 0.5]])
-    >>> cubeness, _, bodies, body_of = blended([cube, gem], weights)
-    >>> cubeness.round(6).tolist(), len(bodies), body_of.tolist()
-    ([0.4, 0.2, 0.3], 3, [0, 2, 1])
+    `styles`: sequence of Style, each with one cubeness and one form. `weights`: (n,k), shares of
+    them; each row adds up to 1. Returns `cubeness`: (n,); `orientation`: (1,3,3) or (n,3,3);
+    `bodies`: list of Polytope, or None for the cube; `body_of`: (n,) int, that of each vertex.
     """
     shares = weights * np.array([style.cubeness for style in styles])
     cubeness = shares.sum(axis=1)

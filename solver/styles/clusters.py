@@ -4,7 +4,6 @@
 import numpy as np
 
 from ..errors import CubicCraftError
-from ..orientation.orientation_search import binned
 from .polytope import encloses_origin
 
 NEAR = np.cos(np.radians(12.0))
@@ -13,6 +12,20 @@ LEAST_SHARE = 1e-3
 """of all area; less makes no direction of its own"""
 _ROUNDS = 8
 _BINS = 50  # per unit; normals in one cell count as one
+
+
+def binned(normals, areas, bins):
+    """Return mean directions (k,3) of the cells of the sphere and their areas (k,).
+
+    `normals`: (n,3), unit normals; zero ones are left out. `areas`: (n,), those with area zero are
+    left out. `bins`: int, cells per unit length.
+    """
+    is_there = (areas > 0.0) & (np.abs(normals).max(axis=1) > 0.0)
+    n, a = normals[is_there], areas[is_there]
+    _, cell = np.unique(np.round(bins * n).astype(np.int64), axis=0, return_inverse=True)
+    cell = cell.ravel()
+    sums = np.stack([np.bincount(cell, a * n[:, c]) for c in range(3)], axis=1)
+    return sums / np.linalg.norm(sums, axis=1, keepdims=True), np.bincount(cell, a)
 
 
 def directions_of(normals, areas, most):

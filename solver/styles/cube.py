@@ -95,20 +95,9 @@ CUBE = Cube()
 
 
 def nearest_to_identity(Q: ArrayLike) -> FloatArray:
-    """Return the rotation nearest to the identity that is equivalent to Q for a cube.
+    """Return the rotation (3,3) nearest to the identity that is equivalent to Q for a cube.
 
-    Parameters
-    ----------
-    Q : (3,3) numpy array
-
-    Returns
-    -------
-    (3,3) numpy array
-        One of the 24 rotations that map the cube to the same orientation as Q does.
-
-    See Also
-    --------
-    auto_orient : Returns such a rotation.
+    There are 24 that map the cube to the same orientation as Q (3,3) does.
 
     Examples
     --------
@@ -130,7 +119,6 @@ def proper(matrix):
 
 @cache
 def _symmetries():
-    """Return the rotations (24,3,3) that map a cube to itself."""
     from scipy.spatial.transform import Rotation  # here, because drawing the cube does not need it
 
     return Rotation.create_group("O").as_matrix()

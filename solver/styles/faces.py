@@ -77,27 +77,23 @@ class Faces:
 
 def faces_of(bodies):
     """Return the Faces of Polytopes."""
-    parts = [_Part(body) for body in bodies]
-    counts = np.array([part.counts for part in parts]).reshape(-1, 3)
+    counts = np.array([[len(x.vertices), len(x.edges), len(x.normals)] for x in bodies])
     starts = np.concatenate([np.zeros((1, 3), int), counts.cumsum(axis=0)])
     totals = starts[-1]
     offsets = starts + [0, totals[0], totals[0] + totals[1]]
-    rows, links = ([], [], []), ([], [], [])
-    for part, first, after in zip(parts, offsets[:-1], offsets[1:], strict=True):
-        part.add(rows, links, first, (first[0], after[0]))
-    flat = [face for kind in rows for face in kind]
-    lists = [found for kind in links for found in kind]
-    sizes = np.array([len(found) for found in lists])
+    blocks = [_blocks(body, first) for body, first in zip(bodies, offsets, strict=False)]
+    rows = [kind for kinds in zip(*blocks, strict=True) for kind in kinds]
+    points, axes, lengths, sizes, targets, ways = map(np.concatenate, zip(*rows, strict=True))
+    of_bodies = np.stack([starts[:-1, 0], starts[1:, 0]], axis=1)
     ends = sizes.cumsum()
-    joined = [link for found in lists for link in found]
     arrays = FaceArrays(
-        points=np.array([face[0] for face in flat]),
-        axes=np.array([face[1] for face in flat]),
-        lengths=np.array([face[2] for face in flat]),
-        vertices=np.array([face[3] for face in flat], np.int32),
+        points,
+        axes,
+        lengths,
+        vertices=np.concatenate([of_bodies.repeat(x, axis=0) for x in counts.T]).astype(np.int32),
         links=np.stack([ends - sizes, ends], axis=1).astype(np.int32),
-        targets=np.array([target for target, _ in joined], np.int32),
-        ways=np.array([way for _, way in joined]),
+        targets=targets.astype(np.int32),
+        ways=ways,
     )
     edge_ends = np.concatenate(
         [body.edges + first[0] for body, first in zip(bodies, offsets[:-1], strict=True)]
@@ -128,41 +124,28 @@ def _between(body, first):
     return result
 
 
-class _Part:
-    """The faces of one body."""
+def _blocks(body, first):
+    """Return the blocks of the vertices, edges and facets of a body, numbered from `first`."""
+    ends = body.vertices[body.edges]
+    along = ends[:, 1] - ends[:, 0]
+    lengths = np.linalg.norm(along, axis=1)
+    along /= lengths[:, None]
+    facets = body.edge_facets
+    into = np.cross(body.normals[facets], along[:, None, :])
+    toward = body.middles[facets] - ends.mean(axis=1)[:, None, :]
+    into *= np.sign(np.einsum("eki,eki->ek", into, toward))[:, :, None]
+    number = np.arange(len(along))
+    to_edges, ways = np.repeat(first[1] + number, 2), np.stack([along, -along], axis=1)
+    feet, none = body.offsets[:, None] * body.normals, np.zeros_like(body.vertices)
+    return (
+        _block(body.vertices, none, none[:, 0], body.edges, to_edges, ways),
+        _block(ends[:, 0], along, lengths, np.repeat(number, 2), first[2] + facets.ravel(), into),
+        _block(feet, body.normals, np.zeros(len(feet)), facets, to_edges, into),
+    )
 
-    def __init__(self, body):
-        self._body = body
-        self.counts = len(body.vertices), len(body.edges), len(body.normals)
-        ends = body.vertices[body.edges]
-        along = ends[:, 1] - ends[:, 0]
-        self._lengths = np.linalg.norm(along, axis=1)
-        self._along = along / self._lengths[:, None]
-        self._facets = body.edge_facets
-        into = np.cross(body.normals[self._facets], self._along[:, None, :])
-        middle = ends.mean(axis=1)
-        toward = body.middles[self._facets] - middle[:, None, :]
-        sign = np.sign(np.einsum("eki,eki->ek", into, toward))
-        self._into = into * sign[:, :, None]
 
-    def add(self, rows, links, first, vertices):
-        """Append to rows and links of vertices, edges and facets, numbered from `first`."""
-        body, nothing = self._body, np.zeros(3)
-        at_vertex = [[] for _ in body.vertices]
-        at_facet = [[] for _ in body.normals]
-        for e, (a, b) in enumerate(body.edges):
-            number = first[1] + e
-            at_vertex[a].append((number, self._along[e]))
-            at_vertex[b].append((number, -self._along[e]))
-            rows[1].append((body.vertices[a], self._along[e], self._lengths[e], vertices))
-            found = []
-            for facet, way in zip(self._facets[e], self._into[e], strict=True):
-                at_facet[facet].append((number, way))
-                found.append((first[2] + facet, way))
-            links[1].append(found)
-        for point, found in zip(body.vertices, at_vertex, strict=True):
-            rows[0].append((point, nothing, 0.0, vertices))
-            links[0].append(found)
-        for normal, offset, found in zip(body.normals, body.offsets, at_facet, strict=True):
-            rows[2].append((offset * normal, normal, 0.0, vertices))
-            links[2].append(found)
+def _block(points, axes, lengths, owner, targets, ways):
+    """Return the rows of some faces, how many links each has, and these, in the order of faces."""
+    order = np.argsort(owner, axis=None, kind="stable")
+    sizes = np.bincount(owner.ravel(), minlength=len(points))
+    return points, axes, lengths, sizes, targets[order], ways.reshape(-1, 3)[order]

@@ -103,15 +103,7 @@ def pyramid(sides: int) -> Polytope:
     return _exactly([*slopes, (0, 0, -1)])
 
 
-def cylinder() -> Polytope:
-    """Return a prism with so many sides that nobody sees them."""
-    return prism(ROUND)
-
-
-def cone() -> Polytope:
-    """Return a pyramid with so many sides that nobody sees them."""
-    return pyramid(ROUND)
-
+cylinder, cone = partial(prism, ROUND), partial(pyramid, ROUND)
 
 PLAIN = {
     "rounded": rounded_cube,
@@ -131,25 +123,8 @@ WITH_SIDES = {"prism": prism, "pyramid": pyramid}
 def named(name: str, sides: int = 6, weights: Sequence[float] = (1.0, 1.0, 1.0)) -> Polytope | None:
     """Return the form of a name, None for the cube.
 
-    Parameters
-    ----------
-    name : str
-        "cube", "box", or one of `PLAIN` and `WITH_SIDES`.
-    sides : int
-        Of a form with sides.
-    weights : sequence of 3 floats
-        Of a box.
-
-    Raises
-    ------
-    CubicCraftError
-        There is no such form.
-
-    Examples
-    --------
-    >>> from solver.styles.forms import named
-    >>> len(named("prism", 5).normals)
-    7
+    `name`: "cube", "box", or one of `PLAIN` and `WITH_SIDES`. `sides`, `weights`: of the forms that
+    have them. Raises CubicCraftError: there is no such form.
     """
     if name == "cube":
         return None

@@ -49,7 +49,6 @@ def spiral(count):
 
 
 def _outermost(points):
-    """Return the points that lie farthest in one of many directions."""
     if not np.isfinite(points).all():
         raise CubicCraftError("a form needs at least four points that are not flat")
     ways = spiral(_WAYS)

@@ -33,20 +33,7 @@ STRONGEST = 4.0
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Polytope:
-    """A convex body with flat sides that has the origin inside.
-
-    See Also
-    --------
-    from_directions, from_points : Make one.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from solver.styles.polytope import from_directions
-    >>> cube = from_directions(np.concatenate([np.eye(3), -np.eye(3)]))
-    >>> len(cube.vertices), len(cube.edges), len(cube.normals)
-    (8, 12, 6)
-    """
+    """A convex body with flat sides that has the origin inside: see `from_directions`."""
 
     normals: FloatArray
     """(f,3) unit normals of the facets"""

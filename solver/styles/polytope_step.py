@@ -180,7 +180,6 @@ def _pairs(begin, end):
 
 
 def _nearest(points, polytope, faces, starts):
-    """Return the states (n,4) nearest to points (n,3); those inside a body stay."""
     arrays = faces.arrays
     first_edge, first_facet = starts[1], starts[2]
     edges = first_edge + np.arange(len(polytope.edges))

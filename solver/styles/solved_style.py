@@ -157,7 +157,6 @@ def _orientation(style, rest):
 
 
 def _numbers(of_input, name, count, rest):
-    """Return which of several forms or captures the used vertices have (n,)."""
     if of_input is None or not count:
         return np.zeros(len(rest.V), int)
     return choices_per_vertex(of_input, name, len(rest.input_positions), count)[rest.used]

@@ -25,11 +25,6 @@ class Style(Value):
     It may be the same for all N vertices of a mesh, or differ from vertex to vertex. That of a
     piece or a region is the same for all.
 
-    See Also
-    --------
-    Stylization : Turns a mesh toward a style, and refuses one that does not fit it.
-    piece_of : An object with a style, and others in regions.
-
     Examples
     --------
     >>> import numpy as np
@@ -90,24 +85,12 @@ class Style(Value):
 
     @property
     def forms(self) -> list[Polytope]:
-        """The forms as a list; empty for the cube.
-
-        Raises
-        ------
-        CubicCraftError
-            They are not Polytopes.
-        """
+        """The forms as a list; empty for the cube. Raises CubicCraftError: they are not forms."""
         return [] if self.form is None else instances(self.form, "form", Polytope)
 
     @property
     def captures(self) -> list[NormalCapture]:
-        """The captures as a list; empty for none.
-
-        Raises
-        ------
-        CubicCraftError
-            They are not NormalCaptures.
-        """
+        """The captures as a list; empty for none. Raises CubicCraftError: they are none."""
         return [] if self.capture is None else instances(self.capture, "capture", NormalCapture)
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rotations and reflections that map a form to itself, which therefore change nothing.
+"""The rotations that map a form to itself, which therefore change nothing.
 
 Such a map takes each facet to one that is equally far from the origin and sees the others under
 the same angles. It is known from the images of two facets: all pairs are tried that may be images
@@ -22,89 +22,17 @@ PART = 2_000_000
 
 
 def symmetries(body: Polytope):
-    """Return the rotations that map a body to itself.
+    """Return the rotations (k,3,3) that map a body to itself: a group, the identity first.
 
-    Parameters
-    ----------
-    body : Polytope
-
-    Returns
-    -------
-    (k,3,3) numpy array
-        A group, the identity first. The array is shared and cannot be written to.
-
-    See Also
-    --------
-    mirror_symmetry : Returns a map that is not a rotation.
-    nearest_to_identity : Chooses among equivalent rotations.
-
-    Examples
-    --------
-    >>> from solver.styles.forms import dodecahedron, prism
-    >>> from solver.styles.symmetries import symmetries
-    >>> len(symmetries(dodecahedron())), len(symmetries(prism(5)))
-    (60, 10)
+    The array is shared and cannot be written to.
     """
     return _rotations(*_key(body))
 
 
-def mirror_symmetry(body: Polytope):
-    """Return a map of a body to itself that turns left into right.
-
-    Parameters
-    ----------
-    body : Polytope
-
-    Returns
-    -------
-    (3,3) numpy array or None
-        An orthogonal matrix with determinant -1, a reflection at a plane if there is one. None if
-        the body is chiral, so that its mirror image is another body. The array is shared and cannot
-        be written to.
-
-    See Also
-    --------
-    symmetries : Returns the rotations.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from solver.styles.forms import pyramid
-    >>> from solver.styles.symmetries import mirror_symmetry
-    >>> mirror = mirror_symmetry(pyramid(3))
-    >>> bool(np.allclose(mirror @ mirror, np.eye(3))), round(np.linalg.det(mirror))
-    (True, -1)
-    """
-    return _mirror(*_key(body))
-
-
 def nearest_to_identity(Q, body: Polytope):
-    """Return the rotation nearest to the identity that is equivalent to Q for a body.
+    """Return S Q (3,3) nearest to the identity, for rotations Q into the frame of a body.
 
-    Parameters
-    ----------
-    Q : (3,3) numpy array
-        Rotation into the frame of the body.
-    body : Polytope
-
-    Returns
-    -------
-    (3,3) numpy array
-        S Q for one of the body's symmetries S.
-
-    See Also
-    --------
-    cube.nearest_to_identity : Does so for the cube.
-    symmetries : Returns the rotations S.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from solver.styles.forms import octahedron
-    >>> from solver.styles.symmetries import nearest_to_identity
-    >>> quarter_turn = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
-    >>> bool(np.allclose(nearest_to_identity(quarter_turn, octahedron()), np.eye(3)))
-    True
+    S is one of the body's symmetries.
     """
     same = symmetries(body) @ Q
     return same[np.argmax(np.trace(same, axis1=1, axis2=2))]
@@ -118,7 +46,7 @@ def _key(body):
 
 @lru_cache(maxsize=KEPT)
 def _rotations(normals, offsets):
-    found = _maps(normals, offsets, 1.0)
+    found = _maps(normals, offsets)
     traces = np.trace(found, axis1=1, axis2=2)
     others = np.delete(found, traces.argmax(), axis=0)
     found = np.concatenate([np.eye(3)[None], others])
@@ -126,22 +54,7 @@ def _rotations(normals, offsets):
     return found
 
 
-@lru_cache(maxsize=KEPT)
-def _mirror(normals, offsets):
-    found = _maps(normals, offsets, -1.0)
-    if not len(found):
-        return None
-    # A reflection at a plane has the largest trace, 1; among equals, rounding must not choose.
-    mirror = found[np.trace(found, axis1=1, axis2=2).round(6).argmax()].copy()
-    mirror.setflags(write=False)
-    return mirror
-
-
-def _maps(normals, offsets, determinant):
-    """Return the orthogonal matrices (k,3,3) with this determinant that map a body to itself.
-
-    They are in the order of the images of the two chosen facets.
-    """
+def _maps(normals, offsets):
     n = np.frombuffer(normals).reshape(-1, 3)
     offsets = np.frombuffer(offsets)
     r = offsets / offsets.max()
@@ -150,9 +63,9 @@ def _maps(normals, offsets, determinant):
     i, j = _two_facets(cosines, alike.sum(axis=1))
     is_image = np.abs(cosines - cosines[i, j]) < 2.0 * MATCHING
     a, b = np.nonzero(is_image & alike[i][:, None] & alike[j])
-    maps = _frames(n, a, b, determinant) @ _frames(n, [i], [j], 1.0).swapaxes(1, 2)
+    maps = _frames(n, a, b) @ _frames(n, [i], [j]).swapaxes(1, 2)
     parts = np.array_split(maps, len(maps) * len(n) ** 2 // PART + 1)
-    return np.concatenate([_verified(part, n, r, determinant) for part in parts])
+    return np.concatenate([_verified(part, n, r) for part in parts])
 
 
 def _alike(r, cosines):
@@ -173,15 +86,15 @@ def _two_facets(cosines, counts):
     return i, int(np.where(sines >= 0.5 * sines.max(), counts, len(counts) + 1).argmin())
 
 
-def _frames(n, a, b, determinant):
+def _frames(n, a, b):
     """Return frames (k,3,3), their axes in columns, of the pairs of facets a and b (k,)."""
     x = n[a]
     z = np.cross(x, n[b])
     z /= np.linalg.norm(z, axis=1, keepdims=True)
-    return np.stack([x, np.cross(z, x), determinant * z], axis=2)
+    return np.stack([x, np.cross(z, x), z], axis=2)
 
 
-def _verified(maps, n, r, determinant):
+def _verified(maps, n, r):
     """Return those of the maps (k,3,3) that take each facet to one, fitted to all facets."""
     turned = n @ maps.swapaxes(1, 2)
     image = (turned @ n.T).argmax(axis=2)
@@ -191,5 +104,5 @@ def _verified(maps, n, r, determinant):
     is_all = (np.sort(image, axis=1) == np.arange(len(n))).all(axis=1)
     image = image[is_near & is_as_far & is_all]
     u, _, vt = np.linalg.svd(n[image].swapaxes(1, 2) @ n)
-    u[:, :, 2] *= (determinant * np.linalg.det(u @ vt))[:, None]
+    u[:, :, 2] *= np.linalg.det(u @ vt)[:, None]
     return u @ vt

@@ -49,7 +49,7 @@ def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> tuple[np.ndarray, np.
         for a, b in ends:
             is_joined &= np.abs(uv[a] - uv[b]).max(axis=1, initial=0.0) < _SAME
     pairs = np.stack([face[one], face[other]], axis=1)
-    chart = components(np.empty((0, 3), np.int64), faces, pairs[is_joined])[1]
+    chart = components(pairs[is_joined], faces)[1]
     apart = pairs[~is_joined & (chart[pairs[:, 0]] == chart[pairs[:, 1]])]
     count = size - 2  # a face of k corners has k - 2 triangles
     first = (np.cumsum(count) - count).tolist()

@@ -15,7 +15,6 @@ from solver import (
     SolverOptions,
     Stylization,
     edge_distances,
-    nearest_distances,
     rest_mesh,
     run,
     svd_rotations,
@@ -135,4 +134,3 @@ def test_distances_along_edges():
     assert edge_distances(V, F, [0]).tolist() == [0.0, 3.0, 5.0, np.inf, np.inf]
     assert edge_distances(V, F, [0], 4.0).tolist() == [0.0, 3.0, np.inf, np.inf, np.inf]
     assert edge_distances(V, np.array([[3, 4, 0]]), [3])[4] < 1e-9
-    assert nearest_distances(V[:2], V[1:3]).tolist() == [3.0, 0.0]

@@ -176,11 +176,9 @@ def test_a_body_of_which_bones_say_that_it_has_no_limbs_has_none():
     trunk = KnownLimbs(np.empty((0, 3)), csr_matrix((len(V), 0)), known)
     of_trunk = Stylization(
         Setup(rest), 0.4, Pose(limbs=trunk), SolverOptions(device="numpy")
-    ).orientations
+    ).style.Q
     np.testing.assert_array_equal(of_trunk, np.broadcast_to(np.eye(3), of_trunk.shape))
     known[: len(V) // 2] = False
     partly = KnownLimbs(np.empty((0, 3)), csr_matrix((len(V), 0)), known)
-    found = Stylization(
-        Setup(rest), 0.4, Pose(limbs=partly), SolverOptions(device="numpy")
-    ).orientations
+    found = Stylization(Setup(rest), 0.4, Pose(limbs=partly), SolverOptions(device="numpy")).style.Q
     assert np.abs(found - np.eye(3)).max() > 0.1

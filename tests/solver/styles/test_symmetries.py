@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from solver.styles import forms
 from solver.styles.polytope import Polytope, from_directions, from_points
-from solver.styles.symmetries import mirror_symmetry, nearest_to_identity, symmetries
+from solver.styles.symmetries import nearest_to_identity, symmetries
 
 COUNTS = {
     "cube": 24,
@@ -85,7 +85,6 @@ def test_prisms_and_pyramids_have_as_many_as_their_sides_say(sides):
 def test_most_hulls_have_none(seed):
     body = hull(seed)
     np.testing.assert_array_equal(symmetries(body), np.eye(3)[None])
-    assert mirror_symmetry(body) is None
 
 
 @pytest.mark.parametrize(
@@ -125,19 +124,8 @@ def test_what_is_remembered_is_neither_written_to_nor_mistaken():
     assert len(symmetries(longer)) == 5
 
 
-@each_form
-def test_a_mirror_symmetry_is_a_reflection(name):
-    body = turned(POLYTOPES[name](), shapes.rotation(40, 50, 60))
-    mirror = mirror_symmetry(body)
-    assert mirror is not None
-    np.testing.assert_allclose(mirror, mirror.T, atol=1e-9)
-    np.testing.assert_allclose(np.linalg.eigvalsh(mirror), [-1.0, 1.0, 1.0])
-    assert_maps_to_itself(body, mirror[None])
-
-
-def test_a_twisted_form_has_rotations_but_no_mirror_symmetry():
+def test_a_twisted_form_has_rotations():
     assert len(symmetries(twisted())) == 6
-    assert mirror_symmetry(twisted()) is None
 
 
 @each_form
