@@ -98,7 +98,6 @@ def _hide_in(layer, source, is_hidden):
 
 
 def _layers_of(new) -> Iterator[bpy.types.ViewLayer]:
-    """Yield the view layers in which the new object is seen."""
     return (layer for layer in _all_layers() if new.visible_get(view_layer=layer))
 
 

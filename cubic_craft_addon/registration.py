@@ -2,7 +2,6 @@
 """Registers the Blender side that is not an operator."""
 
 from . import hidden_source, job, live, presets
-from .angles import kept as angles_kept
 from .angles import overlay as angles_overlay
 from .animation import properties as animation_properties
 from .command_line import blender_command
@@ -14,16 +13,16 @@ from .handles import overlay as handles_overlay
 from .handles import panel as handles_panel
 from .handles import properties as handles_properties
 from .regions import panel as regions_panel
-from .regions import properties as region_properties
+from .regions import region
+from .screen import kept
 from .send import properties as send_properties
 from .settings import group_renames, properties
-from .ui import edited, header, menus, panel, preferences
-from .worn import panel as worn_panel
+from .ui import header, menus, panel, preferences
 
 _modules = (
     handles_properties,
     form_pictures,
-    region_properties,
+    region,
     properties,
     animation_properties,
     hidden_source,
@@ -31,9 +30,9 @@ _modules = (
     preferences,
     live,
     job,
+    kept,
     handle_gizmos,
     handles_overlay,
-    angles_kept,
     angles_overlay,
     form_overlay,  # its lines are drawn over the colors
     handles_panel,
@@ -42,8 +41,6 @@ _modules = (
     panel,
     menus,
     header,
-    edited,
-    worn_panel,
     group_renames,
     object_cache,
     ahead,

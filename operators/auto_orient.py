@@ -29,12 +29,10 @@ class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh that can be cubified, or one that is live."""
         return live.current() is not None or poll_usable(cls, context)
 
     @reporting
     def execute(self, context):
-        """Find the orientation of each mesh, then set all."""
         session = live.current()
         if session is not None:
             for task in session.tasks[:1]:  # one orientation for all, that of the active object

@@ -16,13 +16,10 @@ from ._shared.watched_operator import WatchedOperator
 
 
 class _BakeOperator(WatchedOperator, BakeProperties):
-    """What both have in common."""
-
     is_process: bool
 
     @classmethod
     def poll(cls, context):
-        """There is a visible mesh."""
         return poll_sources(cls, context)
 
     def make_job(self, context):

@@ -26,7 +26,6 @@ class CUBIC_CRAFT_OT_bake_normal_map(NormalMapProperties, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is an active mesh with a result, in Object Mode."""
         if not (poll_work(cls, context) and poll_object_mode(cls, context)):
             return False
         obj = panel_object(context)
@@ -36,7 +35,6 @@ class CUBIC_CRAFT_OT_bake_normal_map(NormalMapProperties, bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Bake one map."""
         obj = panel_object(context)
         if obj is None:
             raise CubicCraftError("Select a mesh object first")

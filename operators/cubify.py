@@ -12,7 +12,7 @@ from bpy.props import BoolProperty, CollectionProperty
 
 from ..cubic_craft_addon import job, mesh_bridge
 from ..cubic_craft_addon.form import panel as form_panel
-from ..cubic_craft_addon.form.names import form_settings
+from ..cubic_craft_addon.form.settings import form_settings
 from ..cubic_craft_addon.handles import Handle
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.properties import CubicCraftGivenHandle
@@ -79,7 +79,6 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh that can be cubified."""
         return poll_sources(cls, context)
 
     def make_job(self, context):
@@ -90,7 +89,6 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
         return job.Job(_overrides(self, objects[0]), objects)
 
     def draw(self, context):
-        """Draw Adjust Last Operation."""
         layout = self.layout
         layout.use_property_split = True
         if self.is_edited:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cancel Cubify, or stop Cubify Animation, with a button."""
+"""While Cubify runs: the button that cancels it, and what stands in the place of others."""
 
 import bpy
 
 from ..cubic_craft_addon import job
+from ._shared.selection import poll_idle
 
 
 class CUBIC_CRAFT_OT_cubify_cancel(bpy.types.Operator):
@@ -19,12 +20,24 @@ class CUBIC_CRAFT_OT_cubify_cancel(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """Something runs."""
         return job.current() is not None
 
     def execute(self, context):
-        """End it."""
         running = job.current()
         if running is not None:
             running.stop()
         return {"FINISHED"}
+
+
+class CUBIC_CRAFT_OT_busy(bpy.types.Operator):
+    """A button that is always gray, see `ui/buttons.py`."""
+
+    bl_idname = "cubic_craft.busy"
+    bl_label = "Busy"
+    bl_description = "Can be clicked again when Cubify has ended"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context):
+        poll_idle(cls)
+        return False

@@ -8,12 +8,11 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from ..cubic_craft_addon import hidden_source, mesh_bridge
 from ..cubic_craft_addon.measure.facets import flat_facets
-from ._shared.originals import for_each_original
+from ._shared.originals import OnOriginals
 from ._shared.selection import poll_any_usable, poll_meshes, selected_meshes
-from ._shared.unexpected_errors import reporting
 
 
-class CUBIC_CRAFT_OT_flatten(bpy.types.Operator):
+class CUBIC_CRAFT_OT_flatten(OnOriginals, bpy.types.Operator):
     """Make the sides of the selected cubic meshes exactly planar."""
 
     bl_idname = "cubic_craft.flatten"
@@ -22,7 +21,7 @@ class CUBIC_CRAFT_OT_flatten(bpy.types.Operator):
         "Make the sides of the selected cubic meshes exactly planar, with straight edges between"
         " them. Restore still brings back the original"
     )
-    bl_options = {"REGISTER", "UNDO"}
+    done = "Flattened"
 
     angle: FloatProperty(
         name="Angle",
@@ -63,15 +62,13 @@ class CUBIC_CRAFT_OT_flatten(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh with a result."""
-        return poll_meshes(cls, context) and _poll_results(cls, context)
+        if not poll_meshes(cls, context):
+            return False
+        objects = [obj for obj in selected_meshes(context) if mesh_bridge.last_run(obj) is not None]
+        return poll_any_usable(cls, objects, "The mesh has no result to flatten; cubify it first")
 
-    @reporting
-    def execute(self, context):
-        """Flatten each mesh once."""
-        return for_each_original(self, context, self._flatten, "Flattened")
-
-    def _flatten(self, obj):
+    def change(self, obj):
+        """Flatten a mesh, or make a new object of it."""
         mesh = mesh_bridge.mesh_of(obj)
         mesh_bridge.end_preview(mesh)
         facets = flat_facets(obj, self.angle, self.tolerance, with_polygons=self.dissolve)
@@ -99,11 +96,3 @@ def _write_ngons(obj, facets, edges):
 
     with hidden_source.source_kept(obj):
         mesh_bridge.write_ngons(obj, facets.polygons, edges, finish)
-
-
-def _poll_results(operator_class, context):
-    """Return whether a selected mesh has a result and can be changed. It reads no positions."""
-    objects = [obj for obj in selected_meshes(context) if mesh_bridge.last_run(obj) is not None]
-    return poll_any_usable(
-        operator_class, objects, "The mesh has no result to flatten; cubify it first"
-    )

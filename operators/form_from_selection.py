@@ -8,13 +8,12 @@ after an undo. A single undo then reverts everything, back into Edit Mode.
 import bpy
 
 from ..cubic_craft_addon import live
+from ..cubic_craft_addon.form.body import picked_directions
 from ..cubic_craft_addon.form.direction_text import write_directions
-from ..cubic_craft_addon.form.picked_directions import picked_directions
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
 from ..cubic_craft_addon.read.object_frame import stretch_and_orientation
 from ..cubic_craft_addon.settings.properties import settings_of
-from ..solver import CubicCraftError
 from ._shared.selection import poll_mesh, refuse, report_all
 from ._shared.unexpected_errors import reporting
 
@@ -32,7 +31,6 @@ class CUBIC_CRAFT_OT_form_from_selection(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh in Edit Mode."""
         if live.current() is not None:
             return refuse(cls, "Confirm or cancel Live first")
         if context.mode != "EDIT_MESH":
@@ -41,13 +39,9 @@ class CUBIC_CRAFT_OT_form_from_selection(bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Cluster the normals, and choose the form of them."""
         obj = panel_object(context)
-        try:
-            frame = stretch_and_orientation(obj, settings_of(obj, handles=()))
-            directions, count = picked_directions(obj, *frame)
-        except CubicCraftError as error:
-            return report_all(self, "", [str(error)])
+        frame = stretch_and_orientation(obj, settings_of(obj, handles=()))
+        directions, count = picked_directions(obj, *frame)
         bpy.ops.object.mode_set(mode="OBJECT")
         properties = object_properties(obj)
         properties.form_directions = write_directions(directions)

@@ -3,12 +3,11 @@
 
 import bpy
 
-from ..cubic_craft_addon.handles.active import active_handle
-from ..cubic_craft_addon.handles.empty import add_empty
+from ..cubic_craft_addon.handles.active import active_handle, add_empty
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.pose import live_target
-from ..solver import CubicCraftError
 from ._shared.selection import poll_handle, refuse, report_all
+from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
@@ -24,7 +23,6 @@ class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is an active handle that follows nothing yet."""
         if not poll_handle(cls, context):
             return False
         target = live_target(active_handle(panel_object(context)))
@@ -32,14 +30,11 @@ class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
             return refuse(cls, f'The handle already follows "{target.name}"')
         return True
 
+    @reporting
     def execute(self, context):
-        """Make the empty, bind the handle to it, and select it."""
         obj = panel_object(context)
         handle = active_handle(obj)
-        try:
-            empty = add_empty(context, obj, handle)
-        except CubicCraftError as error:
-            return report_all(self, "", [str(error)])
+        empty = add_empty(context, obj, handle)
         handle.target = empty  # binds it
         if context.view_layer.objects.get(empty.name) == empty:
             bpy.ops.object.select_all(action="DESELECT")

@@ -27,7 +27,6 @@ class CUBIC_CRAFT_OT_handle_move(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There are handles to change places."""
         if not poll_handle(cls, context):
             return False
         if len(object_properties(panel_object(context)).handles) < 2:
@@ -35,7 +34,6 @@ class CUBIC_CRAFT_OT_handle_move(bpy.types.Operator):
         return True
 
     def execute(self, context):
-        """Change places with the neighbor, if there is one."""
         properties = object_properties(panel_object(context))
         place = properties.active_handle + (-1 if self.direction == "UP" else 1)
         if not 0 <= place < len(properties.handles):

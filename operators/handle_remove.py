@@ -3,8 +3,7 @@
 
 import bpy
 
-from ..cubic_craft_addon.handles.active import active_handle
-from ..cubic_craft_addon.handles.empty import is_ours_alone
+from ..cubic_craft_addon.handles.active import active_handle, is_ours_alone
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
 from ._shared.selection import poll_handle
@@ -23,11 +22,9 @@ class CUBIC_CRAFT_OT_handle_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is an active handle."""
         return poll_handle(cls, context)
 
     def execute(self, context):
-        """Remove the handle, then its empty."""
         obj = panel_object(context)
         properties = object_properties(obj)
         target = active_handle(obj).target

@@ -25,7 +25,6 @@ class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a handle that is posed or follows something."""
         if not poll_mesh(cls, context):
             return False
         obj = panel_object(context)
@@ -34,7 +33,6 @@ class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
         return True
 
     def execute(self, context):
-        """Remove each pose, and return each target."""
         obj = panel_object(context)
         is_moved = False
         for handle, target in followed(obj):

@@ -26,13 +26,11 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """Live runs, or there is a mesh that can be cubified."""
         if live.current() is not None:
             return True
         return poll_usable(cls, context)
 
     def execute(self, context):
-        """Refuse: Live needs a window."""
         self.report({"ERROR"}, "Live needs a window; use Cubify instead")
         return {"CANCELLED"}
 
@@ -115,11 +113,9 @@ class CUBIC_CRAFT_OT_live_cancel(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """Live runs."""
         return live.current() is not None
 
     def execute(self, context):
-        """End it."""
         session = live.current()
         if session is not None:
             session.on(live.Event.CANCEL)

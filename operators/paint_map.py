@@ -24,12 +24,10 @@ class CUBIC_CRAFT_OT_paint_map(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh, in Object Mode or in Weight Paint Mode already."""
         return poll_mesh(cls, context, ("OBJECT", "PAINT_WEIGHT"))
 
     @reporting
     def execute(self, context):
-        """Make what is missing, and change the mode."""
         if context.mode == "PAINT_WEIGHT":
             bpy.ops.object.mode_set(mode="OBJECT")
             return {"FINISHED"}

@@ -1,19 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Add a region: a vertex group of the mesh with a form of its own."""
+"""Add a region: a vertex group of the mesh, or the selected vertices, with a form of its own."""
 
 import bpy
-from bpy.props import StringProperty
 
 from ..cubic_craft_addon import live
-from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
-from ..cubic_craft_addon.regions.active import add_region
-from ..solver.errors import CubicCraftError
-from ._shared.group_to_add import group_to_add, poll_groups
-from ._shared.selection import report_all
+from ..cubic_craft_addon.regions.region import add_region
+from ._shared.groups import AddsGroup, AddsSelection
 
 
-class CUBIC_CRAFT_OT_region_add(bpy.types.Operator):
+class CUBIC_CRAFT_OT_region_add(AddsGroup, bpy.types.Operator):
     """Give a vertex group a form of its own."""
 
     bl_idname = "cubic_craft.region_add"
@@ -22,26 +18,34 @@ class CUBIC_CRAFT_OT_region_add(bpy.types.Operator):
         "Give the active vertex group, or the first one that is not a region yet, a form, an"
         " orientation and a cubeness of its own. They begin as those of the object"
     )
-    bl_options = {"REGISTER", "UNDO"}
+    other, already = "Region from Selection", "is a region"
 
-    group: StringProperty(
-        name="Vertex Group",
-        description="Vertex group that the region covers; empty for the active one",
-        options={"SKIP_SAVE"},
-    )
+    def taken(self, obj):
+        """Return the groups that are regions."""
+        return {region.group for region in object_properties(obj).regions}
 
-    @classmethod
-    def poll(cls, context):
-        """There is a mesh with a vertex group."""
-        return poll_groups(cls, context, "Region from Selection")
-
-    def execute(self, context):
+    def add(self, obj):
         """Add the region with the settings of the object."""
-        obj = panel_object(context)
-        taken = {region.group for region in object_properties(obj).regions}
-        try:
-            self.group = group_to_add(obj, self.group, taken, "is a region")
-            add_region(obj, self.group, live.settings_now(obj))
-        except CubicCraftError as error:
-            return report_all(self, "", [str(error)])
-        return report_all(self, f'Added the region "{self.group}"', [])
+        add_region(obj, self.group, live.settings_now(obj))
+        return f'Added the region "{self.group}"'
+
+
+class CUBIC_CRAFT_OT_region_from_selection(AddsSelection, bpy.types.Operator):
+    """Give the selected vertices a form of their own."""
+
+    bl_idname = "cubic_craft.region_from_selection"
+    bl_label = "Region from Selection"
+    bl_description = (
+        "Give the vertices that are selected in Edit Mode a form of their own by making them a"
+        " vertex group and a region"
+    )
+    new = "Region"
+
+    def values(self, obj):
+        """Return the settings of the object, which may be invalid."""
+        return live.settings_now(obj)
+
+    def add(self, obj, group, count, values):
+        """Add the region."""
+        add_region(obj, group, values)
+        return f'Made {count} vertices the region "{group}"'

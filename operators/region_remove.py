@@ -5,7 +5,7 @@ import bpy
 
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.object_properties import object_properties
-from ..cubic_craft_addon.regions.active import active_region
+from ..cubic_craft_addon.regions.region import active_region
 from ._shared.selection import poll_mesh, refuse
 
 
@@ -22,7 +22,6 @@ class CUBIC_CRAFT_OT_region_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is an active region."""
         if not poll_mesh(cls, context, ("OBJECT", "PAINT_WEIGHT")):
             return False
         if active_region(panel_object(context)) is None:
@@ -30,7 +29,6 @@ class CUBIC_CRAFT_OT_region_remove(bpy.types.Operator):
         return True
 
     def execute(self, context):
-        """Remove it, and make its neighbor active."""
         properties = object_properties(panel_object(context))
         properties.regions.remove(properties.active_region)
         last = len(properties.regions) - 1

@@ -21,11 +21,9 @@ class CUBIC_CRAFT_OT_reset(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh in the panel."""
         return poll_panel_mesh(cls, context)
 
     def execute(self, context):
-        """Unset them, so that they are also the defaults in a later version."""
         properties = live.shared_properties(panel_mesh(context))
         for name in ALL:
             if name not in OF_EACH_OBJECT:

@@ -24,7 +24,6 @@ class CUBIC_CRAFT_OT_select_crossing(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh with a result."""
         if not poll_meshes(cls, context):
             return False
         objects = _results(context)
@@ -32,7 +31,6 @@ class CUBIC_CRAFT_OT_select_crossing(bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Find the faces in all results together, then show those that can be seen."""
         check_requirements()
         usable, problems = [], []
         for obj in _results(context):
@@ -62,13 +60,11 @@ class CUBIC_CRAFT_OT_select_crossing(bpy.types.Operator):
 
 
 def _results(context):
-    """Return the selected objects with results, one for each mesh. It reads no positions."""
     objects = [obj for obj in selected_meshes(context) if mesh_bridge.last_run(obj) is not None]
     return list({obj.data: obj for obj in reversed(objects)}.values())[::-1]
 
 
 def _edit(context, objects):
-    """Enter Edit Mode with these objects only, with nothing selected."""
     if context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     for obj in context.selected_objects:

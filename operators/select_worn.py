@@ -21,7 +21,6 @@ class CUBIC_CRAFT_OT_select_worn(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh, in Object Mode."""
         return (
             poll_work(cls, context)
             and poll_object_mode(cls, context)
@@ -30,7 +29,6 @@ class CUBIC_CRAFT_OT_select_worn(bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Select it, and the mesh itself."""
         obj = panel_mesh(context)
         worn = worn_by(obj)
         if not worn:

@@ -7,8 +7,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
 from ..cubic_craft_addon.environment.file_names import file_stems
-from ..cubic_craft_addon.send.file import send
-from ..cubic_craft_addon.send.scale import SCALES, scale_of
+from ..cubic_craft_addon.send.file import SCALES, scale_of, send
 from ..cubic_craft_addon.send.targets import ITEMS, TARGETS, Options, exporter, with_suffix
 from ..solver import CubicCraftError
 from ._shared.selection import poll_meshes, poll_object_mode, report_all, selected_meshes
@@ -66,7 +65,6 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """There is a mesh in Object Mode."""
         return poll_meshes(cls, context) and poll_object_mode(cls, context)
 
     def invoke(self, context, event):
@@ -92,7 +90,6 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
         return is_changed
 
     def draw(self, context):
-        """Draw the options that the kind of file has."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -107,7 +104,6 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Write the file."""
         if not self.filepath:
             raise CubicCraftError("Type the name of the file to write")
         path = Path(bpy.path.abspath(with_suffix(self.filepath, self.target)))

@@ -22,7 +22,6 @@ class CUBIC_CRAFT_OT_show_source(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """Something is hidden behind one of the objects."""
         if not poll_work(cls, context):
             return False
         if any(map(hidden_source.hidden_source, _objects(context))):
@@ -31,7 +30,6 @@ class CUBIC_CRAFT_OT_show_source(bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Show each source; the selection stays."""
         found = [(obj, hidden_source.hidden_source(obj)) for obj in _objects(context)]
         sources = [(obj, source) for obj, source in found if source is not None]
         for obj, source in sources:
@@ -41,6 +39,5 @@ class CUBIC_CRAFT_OT_show_source(bpy.types.Operator):
 
 
 def _objects(context):
-    """Return the selected objects, and that of the panel, which has the button."""
     shown = panel_object(context) or context.active_object
     return {*context.selected_objects, shown} - {None}

@@ -12,8 +12,8 @@ import numpy as np
 from ... import solver
 from ...solver.pieces.placement import Placement
 from .. import mesh_bridge
-from ..measure.form_directions import directions_at
-from ..regions.shares import region_shares
+from ..measure.facets import directions_at
+from ..regions.region import region_shares
 from ..settings.values import Settings
 
 ALIGNED = 6.0

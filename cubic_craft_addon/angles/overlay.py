@@ -15,11 +15,34 @@ from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
 from ...solver import CubicCraftError
+from .. import live
+from ..environment.requirements import check_requirements
 from ..handles.owner import panel_object
+from ..read.object_frame import placement_alone
+from ..screen.kept import Kept
 from ..screen.redraw import redraw_views
 from . import legend
-from .kept import angles_now, forget
-from .measured import Angles
+from .measured import Angles, remaining_angles
+
+_known: Kept[Angles] = Kept()
+"""by the object, with what they were measured with as the key"""
+
+
+def angles_now(obj: bpy.types.Object) -> Angles:
+    """Return the angles of a mesh object as it is seen; the same ones until they change.
+
+    Raises CubicCraftError: SciPy is missing, the form or its orientation is not defined, because an
+    object is not set, or the object has no surface.
+    """
+    check_requirements()
+    settings = live.settings_now(obj)
+    placement = placement_alone(obj, settings)
+    known = _known.get(obj.session_uid, placement.key)
+    if known is not None:
+        return known
+    angles = remaining_angles(obj, placement, settings)
+    return _known.keep(obj.session_uid, angles, placement.key)
+
 
 PROPERTY = "cubic_craft_angles"
 
@@ -129,7 +152,7 @@ def _surface_shader():
 
 def _on_switch(_self, _context):
     global _drawn
-    forget()
+    _known.forget()
     _drawn = None
     redraw_views()
 

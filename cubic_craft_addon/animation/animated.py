@@ -20,7 +20,7 @@ from ..read.object_frame import placements
 from ..run import pipeline
 from ..run.up_to_date import what_matters
 from ..settings.values import IN_ANIMATION, Settings
-from .on_the_way import on_the_way
+from .sources import on_the_way
 
 _STILL = 1e-9  # of the unit box; less is no movement
 

@@ -25,9 +25,8 @@ from ..settings.values import Settings
 from .animated import Animated, AnimatedGroup, FrameSettings
 from .even_speed import even_places, largest_steps, resampled
 from .exchange import SUFFIXES, check_format
-from .options import BakeOptions, BakeResult
 from .parts import lead_in
-from .places import Places
+from .places import BakeOptions, BakeResult, Places
 from .playback import play, shown, stretch
 from .point_cache import new_point_cache
 from .recording import Recording

@@ -7,7 +7,7 @@ import bpy
 
 from .. import live
 from ..screen.text_fit import draw_wrapped
-from ..ui import job_progress
+from ..ui import buttons
 from .properties import bake_properties, source_of
 from .sources import animated_settings
 
@@ -26,7 +26,7 @@ def draw_animated(context: bpy.types.Context, layout: Any, obj: bpy.types.Object
     draw_wrapped(context, column.column(align=True), text, "INFO")
     row = column.row()
     row.enabled = live.current() is None
-    job_progress.operator(row, "cubic_craft.bake_animation", **_BAKE)
+    buttons.operator(row, "cubic_craft.bake_animation", **_BAKE)
 
 
 def draw(layout, obj):
@@ -45,8 +45,8 @@ def draw(layout, obj):
     layout.prop(properties, "folder")
     row = layout.row()
     row.enabled = live.current() is None
-    job_progress.operator(row, "cubic_craft.bake_animation", **_BAKE)
+    buttons.operator(row, "cubic_craft.bake_animation", **_BAKE)
     layout.prop(properties, "process_from")
     row = layout.row()
     row.enabled = live.current() is None
-    job_progress.operator(row, "cubic_craft.bake_process", text="Bake Process", icon="MOD_TIME")
+    buttons.operator(row, "cubic_craft.bake_process", text="Bake Process", icon="MOD_TIME")

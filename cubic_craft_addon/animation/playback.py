@@ -10,9 +10,9 @@ import bpy
 import numpy as np
 
 from ...solver import CubicCraftError
+from ...solver.console.output import replacing
 from .. import hidden_source, mesh_bridge
 from ..environment.curves import curves_of
-from ..environment.new_file import replacing
 from .exchange import export_frames
 from .point_cache import read_point_cache
 from .properties import SOURCE

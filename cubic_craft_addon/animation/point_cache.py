@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ...solver import CubicCraftError
-from ..environment.new_file import replacing
+from ...solver.console.output import replacing
 
 _HEADER = np.dtype(
     [

@@ -19,8 +19,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ... import solver
+from ...solver.console.output import replacing
 from ..environment.lock import Lock
-from ..environment.new_file import replacing
 
 _COLUMNS = 10  # input, turn as a quaternion, offset
 _BYTES = 4 * _COLUMNS

@@ -3,8 +3,10 @@
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 import bpy
+from mathutils import Euler
 
 from ..environment.curves import animated_paths
 from ..object_properties import PROPERTY, has_properties, object_properties
@@ -51,3 +53,40 @@ def animated_settings(obj: bpy.types.Object) -> dict[str, str]:
     found = (_SETTING.match(path) for path in animated_paths(obj))
     known = object_properties(obj).bl_rna.properties
     return {match[1]: known[match[1]].name for match in found if match and match[1] in known}
+
+
+_STRENGTHS = [name for name, each in SETTINGS.items() if each.is_strength]
+
+
+def on_the_way(start: Settings | None, end: Settings, share: float) -> Settings:
+    """Return settings between two, which are those of the end at a share of 1.
+
+    `start`: Settings or None, none is the original. `end`: whatever is not a strength or an angle
+    is always as in these. `share`: from 0 to 1.
+    """
+    if share >= 1.0:
+        return end
+
+    def mixed(before, after):
+        return (1.0 - share) * before + share * after
+
+    before = {region.group: region.cubeness for region in start.regions} if start else {}
+    base = start.cubeness if start else 0.0
+    strengths = {name: getattr(start, name) if start else 0.0 for name in _STRENGTHS}
+    if start is not None and start.capture_object is None:
+        strengths["capture_strength"] = 0.0
+    regions = tuple(
+        replace(region, cubeness=mixed(before.get(region.group, base), region.cubeness))
+        for region in end.regions
+    )
+    turned = end.orientation
+    if start is not None and start.space == end.space:
+        way = Euler(start.orientation).to_quaternion()
+        found = way.slerp(Euler(end.orientation).to_quaternion(), share).to_euler()
+        turned = (found.x, found.y, found.z)
+    return replace(
+        end,
+        regions=regions,
+        orientation=turned,
+        **{name: mixed(value, getattr(end, name)) for name, value in strengths.items()},
+    )

@@ -23,7 +23,6 @@ def unregister():
 
 
 def _execute(arguments: list[str]) -> int:
-    """Run with the arguments behind the name of the command, and return the exit code."""
     from .main import Program, main_of  # late: hardly a start of Blender needs it
 
     # What was given to Blender itself stays in force for the processes of a batch.

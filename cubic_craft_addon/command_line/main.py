@@ -9,15 +9,14 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import NamedTuple
 
-from ...solver.console.errors import InputError
 from ...solver.console.interruption import end_on_signals, end_with_input
+from ...solver.console.output import InputError
 from .batch.run import run_batch
 from .options.arguments import parse
 from .options.checks import refuse_empty
 from .process.child import CRASHING, run_child, thread_variables
-from .process.one_line import one_line
 from .process.output_files import written
-from .process.quiet import mute_stdout, terminal
+from .process.quiet import mute_stdout, one_line, terminal
 
 
 class Program(NamedTuple):
@@ -52,7 +51,6 @@ def main_of(program: Program) -> int:
 
 
 def _run_one(options: Namespace, program: Program, begin: float) -> int:
-    """Run with one file, or the monkey, and return the exit code."""
     if options.input is not None:
         refuse_empty(options.input)
     if not (options.worker or options.child) and (options.timeout or _may_crash(options)):
@@ -67,7 +65,6 @@ def _run_one(options: Namespace, program: Program, begin: float) -> int:
 
 
 def _may_crash(options: Namespace) -> bool:
-    """Return whether Blender may crash while it reads the files."""
     paths = (options.input, options.form_object, options.capture)
     return any(path.suffix.lower() in CRASHING for path in paths if path)
 

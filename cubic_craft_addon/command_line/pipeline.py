@@ -6,16 +6,15 @@ import time
 from argparse import Namespace
 from collections.abc import Iterator
 
-from ...solver.console.errors import InputError
+from ...solver.console.output import InputError
 from ...solver.errors import CubicCraftError
-from ..environment.engine_notes import new_engine_warnings
+from ..environment.requirements import new_engine_warnings
 from .picture.gallery import build_gallery
 from .picture.render import render
 from .picture.studio import furnish
 from .process.output_files import meshes, numbered, per_cubeness
 from .process.progress import ProgressBar
-from .reading.form_object import FormMesh, make_form, read_form
-from .reading.load_meshes import Loaded, empty_blender, load
+from .reading.load_meshes import FormMesh, Loaded, empty_blender, load, make_form, read_form
 from .solving.bake_frames import bake_frames
 from .solving.cubify_all import cubify_all
 from .writing.report import write_animation_report, write_report

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Functions that Blender calls when something happens (`bpy.app.handlers`)."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 
 import bpy
 
@@ -26,14 +26,3 @@ def remove(handlers: Handlers) -> None:
 def are_installed(handlers: Handlers) -> bool:
     """Return whether Blender calls all of them."""
     return all(handler in getattr(bpy.app.handlers, name) for name, handler in handlers)
-
-
-def changed_shapes(depsgraph: bpy.types.Depsgraph) -> Iterator[int]:
-    """Return the ``session_uid`` of each object of which another shape is seen than before.
-
-    Also where only one of its modifiers has changed.
-    """
-    for update in depsgraph.updates:
-        data = update.id.original
-        if isinstance(data, bpy.types.Object) and update.is_updated_geometry:
-            yield data.session_uid

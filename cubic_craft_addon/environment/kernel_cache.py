@@ -6,7 +6,8 @@ from functools import cache
 import bpy
 
 from ... import solver
-from .package import ROOT_PACKAGE
+
+ROOT_PACKAGE = __name__.partition(".cubic_craft_addon.")[0]
 
 
 @cache

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Requirements of the solver that not every Blender includes, or that are broken in some.
 
+That the engine does not work is told in the section Solver, and once on the command line.
+
 All extensions share one SciPy: the first that is found. If another extension has brought one that
 does not fit this Blender, it is there and cannot be imported.
 """
@@ -8,6 +10,7 @@ does not fit this Blender, it is there and cannot be imported.
 from functools import cache
 from importlib.util import find_spec
 
+from ... import solver
 from ...solver import CubicCraftError
 
 _broken = ""
@@ -59,3 +62,31 @@ def _in_one_line(error: Exception) -> str:
         f"CubicCraft needs SciPy, which does not work here ({reason}): remove or update the "
         f"extension that brought {place}, and restart Blender"
     )
+
+
+_problem = _told = ""
+
+
+def look_at_engine() -> None:
+    """Look whether Taichi or Quadrants works, once a run has tried it."""
+    global _problem
+    _problem = solver.problem_with_engine()
+
+
+def engine_note() -> str:
+    """Return what is known to be wrong with it as a sentence, or an empty text. It is cheap."""
+    if not _problem:
+        return ""
+    name = solver.engine_name()
+    return f"{name} does not work here ({_problem}): NumPy computes instead, which is slower"
+
+
+def new_engine_warnings() -> list[str]:
+    """Return the note if it was not returned before, as a list of one text or none."""
+    global _told
+    look_at_engine()
+    note = engine_note()
+    if note == _told:
+        return []
+    _told = note
+    return [note] if note else []

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The form: what a ball would become, and what the surface is turned toward.
 
-``names`` lists the forms, ``properties`` and ``settings`` have what the artist sets, and ``body``
-makes the form for the solver. ``normal_capture`` is the same for a ball that the artist has shaped.
+``settings`` has what the artist sets, and ``body`` makes the form for the solver.
+``normal_capture`` is the same for a ball that the artist has shaped.
 """

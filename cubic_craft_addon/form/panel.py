@@ -8,7 +8,7 @@ import bpy
 from .. import live
 from ..settings.overrides import POINTERS
 from .direction_text import count_directions
-from .names import form_settings
+from .settings import form_settings
 
 _SIZE, _SIZE_IN_LIST = 3.0, 5.0  # of the pictures, in buttons
 _SHARE = 0.27  # of the width, so that the picture is square in a sidebar of the usual width

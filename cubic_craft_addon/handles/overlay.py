@@ -10,16 +10,14 @@ from typing import Any
 import bpy
 import gpu
 import numpy as np
-from bpy.app.handlers import persistent
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
 from mathutils import Vector
 
 from ...solver import CubicCraftError
 from .. import live, mesh_bridge
-from ..environment import handlers
 from ..object_properties import object_properties
-from ..screen.found_later import FoundLater
+from ..screen.kept import FoundLater
 from ..screen.redraw import redraw_views
 from . import handle_of
 from .gizmos.places import middle_of
@@ -101,38 +99,14 @@ def _draw():
     gpu.state.blend_set("NONE")
 
 
-@persistent
-def _on_update(_scene, depsgraph):
-    if not middles.is_empty:
-        for uid in handlers.changed_shapes(depsgraph):
-            middles.has_changed(uid)
-
-
-@persistent
-def _on_other_data(*_):
-    middles.forget()
-
-
-_HANDLERS = (
-    ("depsgraph_update_post", _on_update),
-    ("frame_change_post", _on_update),
-    ("undo_post", _on_other_data),
-    ("redo_post", _on_other_data),
-    ("load_post", _on_other_data),
-)
-
-
 def register():
-    """Begin to draw and to listen to Blender."""
+    """Begin to draw."""
     global _drawer
-    handlers.install(_HANDLERS)
     _drawer = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_PIXEL")
 
 
 def unregister():
-    """Do both no longer."""
+    """Draw no longer."""
     global _drawer
     bpy.types.SpaceView3D.draw_handler_remove(_drawer, "WINDOW")
     _drawer = None
-    handlers.remove(_HANDLERS)
-    middles.forget()

@@ -13,7 +13,7 @@ matrix has 32-bit rounding errors that depend on the position of the object.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import bpy
@@ -22,10 +22,11 @@ from mathutils import Matrix
 
 from ...solver.errors import CubicCraftError
 from ...solver.pieces.handle_pose import IDENTITY
+from .. import mesh_bridge
 from ..mesh_bridge import vertex_group
 from ..object_properties import has_properties, object_properties
 from .handle import Handle
-from .own_pose import SMALLEST_SCALE, Pose, check_pose, own_pose
+from .own_pose import SMALLEST_SCALE, Pose, check_pose, has_pose, own_pose, pose_since_baked
 
 if TYPE_CHECKING:
     from .properties import CubicCraftHandle
@@ -236,3 +237,61 @@ def _round(values, size):
     """Drop the last digits of the values, in place."""
     unit = 10.0 ** (math.floor(math.log10(size)) - _DIGITS)
     values[...] = np.round(values / unit) * unit
+
+
+def remember_pose(obj: bpy.types.Object, *, is_posed: bool) -> None:
+    """Store the pose with which the mesh of the object has just been written.
+
+    When that shape becomes the original, by Apply or an edit by hand, this pose becomes the rest:
+    the next Cubify would move the vertices, which are at their targets, by the same way again.
+
+    `is_posed`: the mesh itself has been written, with the object's own handles.
+    """
+    mesh = mesh_bridge.mesh_of(obj)
+    users = _users(mesh) if mesh.users > 1 else [obj]
+    written = list(object_properties(obj).handles) if is_posed else []
+    for user in users:
+        for handle in object_properties(user).handles:
+            handle.is_baked = any(_is_as(handle, other) for other in written)
+            if handle.is_baked:
+                is_led = live_target(handle) is not None
+                now = Matrix(relation(user, handle).tolist()) if is_led else handle.rest
+                handle.baked, handle.baked_pose = now, handle.pose
+
+
+def rest_in_pose(mesh: bpy.types.Mesh) -> None:
+    """Make the pose of the written mesh the rest, because its shape is now the original."""
+    for user in _users(mesh):
+        for handle in object_properties(user).handles:
+            if handle.is_baked:
+                handle.rest = handle.baked
+                handle.pose = pose_since_baked(handle)
+                handle.is_baked = False
+
+
+def rebase_edited_handles(
+    objects: list[bpy.types.Object], start_of: Callable[[bpy.types.Object], mesh_bridge.Start]
+) -> None:
+    """Do this for each mesh object that starts from its current shape, edited since written."""
+    for obj in objects:
+        mesh = mesh_bridge.mesh_of(obj)
+        is_baked = any(handle.is_baked for handle in object_properties(obj).handles)
+        if is_baked and mesh_bridge.starts_here(mesh, start_of(obj)):
+            rest_in_pose(mesh)
+
+
+def _is_as(handle, other):
+    """Return whether a handle moves vertices like the other, with which the mesh was written."""
+    target = live_target(handle)
+    if target is not None or live_target(other) is not None:
+        return target == live_target(other)
+    return has_pose(handle) and handle.group == other.group and handle.pose == other.pose
+
+
+def _users(mesh):
+    users = bpy.data.user_map(subset=[mesh])[mesh]
+    return [
+        user
+        for user in users
+        if isinstance(user, bpy.types.Object) and user.is_editable and has_properties(user)
+    ]

@@ -16,7 +16,7 @@ import bpy
 from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..environment.modes import MODES
-from ..handles.baked_pose import rebase_edited_handles
+from ..handles.pose import rebase_edited_handles
 from ..read.member import ShapeRead, assemblies, read_shape
 from ..run.failures import UNEXPECTED
 from ..run.posed_anew import is_posed_anew
@@ -199,7 +199,6 @@ class Job:
 
 
 def _unseen(tasks: list[Task], looks: list[mesh_bridge.Look]) -> list[str]:
-    """Return which of the results cannot be seen, and what helps."""
     found = []
     for task, look in zip(tasks, looks, strict=True):
         if task.written is not None and task.solution is not None:

@@ -18,8 +18,7 @@ from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..run.stepwise_run import StepwiseRun
 from ..run.tasks import Task
-from .beside import shift_beside
-from .follower import Follower
+from .follower import Follower, shift_beside
 from .live_mesh import LiveMesh
 from .stale_previews import leave
 

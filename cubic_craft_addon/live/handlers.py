@@ -5,6 +5,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..environment import handlers
+from .history import History
 from .machine import Event
 
 _session = None
@@ -89,6 +90,31 @@ def remove():
     _session = None
 
 
+def on_property(_properties, _context):
+    """Wake the session, which has no timer while it is idle, as the update of a property."""
+    if _session is not None:
+        _session.wake()
+
+
 def is_installed():
     """Return whether a session is notified of what happens."""
     return _session is not None
+
+
+class UndoSteps:
+    """Detects when the artist has done something that Blender can undo."""
+
+    def __init__(self):
+        self._last = _last_step()
+
+    def tell(self, history: History) -> None:
+        """Notify a history if the last step has changed since the last call."""
+        before, self._last = self._last, _last_step()
+        if self._last not in (before, 0):
+            history.record_outside()
+
+
+def _last_step():
+    """Return an identifier of the last operator with an undo step, 0 for none."""
+    steps = [op for op in bpy.context.window_manager.operators if "UNDO" in op.bl_options]
+    return steps[-1].as_pointer() if steps else 0

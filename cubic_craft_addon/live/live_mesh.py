@@ -180,7 +180,6 @@ class LiveMesh:
 
     @property
     def _is_new(self):
-        """Whether there is something else to show than what was shown last."""
         moment = None if self.run is None else self.run.moment
         return moment is not None and (moment != self._shown_moment or self._ease.is_on)
 

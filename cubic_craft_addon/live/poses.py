@@ -13,7 +13,7 @@ from ...solver.pieces.handle_pose import IDENTITY
 from ..handles.own_pose import Pose, identify, own_pose
 from ..handles.properties import CubicCraftHandle
 from ..object_properties import object_properties
-from . import wake
+from . import handlers
 
 Poses = Mapping[tuple[int, int], Pose]
 """by ``session_uid`` of the object and number of the handle (`identify`)"""
@@ -31,7 +31,7 @@ def set_live_poses(poses: Poses) -> None:
     global _poses
     if poses != _poses:
         _poses = dict(poses)
-        wake.on_property(None, None)
+        handlers.on_property(None, None)
 
 
 def pose_of(obj: bpy.types.Object, handle: CubicCraftHandle) -> Pose:

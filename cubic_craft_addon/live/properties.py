@@ -22,7 +22,7 @@ from ..settings.overrides import (
     values_of,
 )
 from ..settings.properties import RunProperties, object_properties, value_of
-from . import poses, wake
+from . import handlers, poses
 
 _NAME = "cubic_craft_live"
 _POSES = "poses"
@@ -35,7 +35,7 @@ def _with_update(declared):
     def on_update(properties, context):
         if own is not None:
             own(properties, context)
-        wake.on_property(properties, context)
+        handlers.on_property(properties, context)
 
     return declared.function(**{**declared.keywords, "update": on_update})
 
@@ -107,3 +107,20 @@ def unregister():
     """Remove `WindowManager.cubic_craft_live`."""
     delattr(bpy.types.WindowManager, _NAME)
     bpy.utils.unregister_class(CubicCraftLiveProperties)
+
+
+_Values = dict[str, Any]
+_last: tuple[frozenset[int], _Values, _Values] | None = None
+
+
+def remember(object_uids: list[int], own: _Values, values: _Values) -> None:
+    """Remember the settings of a session, and the objects' own with which it began."""
+    global _last
+    _last = frozenset(object_uids), own, values
+
+
+def recall(object_uids: list[int], own: _Values) -> _Values | None:
+    """Return the remembered settings, None if it was about others or their own have changed."""
+    if _last is None or _last[:2] != (frozenset(object_uids), own):
+        return None
+    return _last[2]

@@ -13,21 +13,21 @@ import bpy
 from ...solver import CubicCraftError
 from .. import mesh_bridge
 from ..environment.modes import MODES
-from ..handles.baked_pose import rebase_edited_handles
+from ..handles.pose import rebase_edited_handles
 from ..object_properties import object_properties
+from ..screen import status_text
 from ..screen.redraw import redraw_panels
 from ..settings.overrides import ALL
-from . import cancelled_settings, elsewhere, handlers, meshes, poses, properties, status_bar, wake
+from . import elsewhere, handlers, meshes, poses, properties
 from .followed_mesh import FollowedMesh
 from .follower import remove_left
-from .following import Following
+from .handlers import UndoSteps
 from .history import History, TakeBack
 from .live_mesh import LiveMesh, take_along
-from .live_runs import LiveRuns
+from .live_runs import Following, LiveRuns
 from .machine import Action, Event, Machine, State
 from .plan import Plan
 from .slices import Slices
-from .undo_steps import UndoSteps
 from .written import Written
 
 _log = logging.getLogger(__name__)
@@ -36,6 +36,7 @@ _TIMER_STEP = 0.01  # seconds between two ticks, in which Blender draws and hand
 _PANEL_STEP = 0.1  # seconds between two redraws of the panel
 _CHECK_SHARE = 0.1  # largest share of the time for checking whether anything has changed
 _LEAST_LIFE = 0.1  # seconds of a run while settings are dragged
+_CONFIRM = "Confirm Live", "EVENT_RETURN"
 _PATIENCE = 2.0  # seconds for which an artist who has gone on to something else is kept waiting
 
 
@@ -57,8 +58,7 @@ class Session:
         self._timer = None
         self._next_check = self._next_panel = self._last_restart = self._last_tick = 0.0
         self.is_dragged: Callable[[], bool] = lambda: False
-        self._has_written = self._may_be_painted = self._is_undone = False
-        self._is_reported = False
+        self._has_written = self._may_be_painted = self._is_undone = self._is_reported = False
         self._slices = Slices()
         self.touch()
         self._undo_steps = UndoSteps()
@@ -76,14 +76,14 @@ class Session:
         self._restart_changed()
         if not self._runs.is_working:
             raise CubicCraftError("; ".join(self.all_problems))
-        again = cancelled_settings.recall(self._object_uids, self._own)
+        again = properties.recall(self._object_uids, self._own)
         if again is not None:
             properties.set_live_values(again)  # seen by the first tick, and undone by Ctrl-Z
         try:
             self._show_again()
             handlers.install(self)
-            wake.listen(self.wake)
-            status_bar.show(self)
+            # Blender wants a function, and takes no method.
+            status_text.show(lambda header, _context: self._draw_keys(header))
             self._start_timer()
         except Exception:
             self._put_back()
@@ -148,7 +148,7 @@ class Session:
     def on(self, event: Event) -> None:
         """Process an event and carry out the actions of the state machine."""
         if event is Event.CANCEL:
-            cancelled_settings.remember(self._object_uids, self._own, properties.live_values())
+            properties.remember(self._object_uids, self._own, properties.live_values())
         for action in self._machine.on(event):
             try:
                 _METHODS[action](self)
@@ -337,8 +337,7 @@ class Session:
             for mesh in self.meshes:
                 mesh.arrive()
         shown = [mesh.show(objects[mesh.object_uid], values) for mesh in self.meshes]
-        if not self.is_following:  # followers are not looked at
-            self._has_written |= any(shown)
+        self._has_written |= any(shown) and not self.is_following  # followers are not looked at
         return any(shown)
 
     # -- actions of the state machine --------------------------------------------------------------
@@ -401,8 +400,7 @@ class Session:
     def _clean_up(self):
         self._stop_timer()
         handlers.remove()
-        wake.listen(None)
-        status_bar.hide()
+        status_text.hide()
         poses.set_live_poses({})
         self._plan.release()
         self._runs.release()
@@ -411,7 +409,10 @@ class Session:
             mesh.release()
         redraw_panels()
 
-    # -- helpers -----------------------------------------------------------------------------------
+    def _draw_keys(self, header):
+        first = ("Live is finishing", "NONE") if self.is_finishing else _CONFIRM
+        for text, icon in (first, ("Cancel", "EVENT_ESC"), ("", "EVENT_CTRL"), ("Undo", "EVENT_Z")):
+            header.layout.label(text=text, icon=icon)
 
     def _objects(self, context):
         """Return the objects that still exist, by ``session_uid``, the active one first."""

@@ -14,7 +14,7 @@ from ...solver.contacts.crossings import crossings
 from ...solver.contacts.shown import shown
 from ...solver.mesh.components import components
 from .. import mesh_bridge
-from ..read.rest_place import world_at_rest
+from ..read.object_frame import world_at_rest
 
 
 def crossing_faces(objects: Iterable[bpy.types.Object]) -> dict[bpy.types.Object, np.ndarray]:

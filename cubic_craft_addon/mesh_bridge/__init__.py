@@ -9,21 +9,26 @@ which Restore and Apply remove without a trace (a first original is removed by A
 First*).
 """
 
-from .access.any_mode import flush, glance, in_no_mode
+from .access.any_mode import flush, glance, in_no_mode, remove_copy
 from .access.arrays import corner_vertices, read_position, read_values
-from .access.carried import carried_attributes
+from .access.attributes import carried_attributes
 from .access.checks import check_editable, check_relative_keys, check_usable, mesh_of, why_no_mesh
-from .access.copies import remove_copy
 from .access.dress import dress_of
-from .access.evaluated import read_evaluated, read_evaluated_points
 from .access.group_names import set_groups_aside
-from .access.selected_faces import not_hidden, read_selected_faces, select_faces
 from .access.sharp_edges import (
     are_wanted,
     only_shades,
     rounds,
 )
-from .access.triangulation import faces_of_triangles, triangles
+from .access.triangulation import (
+    faces_of_triangles,
+    not_hidden,
+    read_evaluated,
+    read_evaluated_points,
+    read_selected_faces,
+    select_faces,
+    triangles,
+)
 from .access.vertex_groups import group_weights, vertex_group, weights_of_groups
 from .memory.cubic_key import find_cubic_key
 from .memory.first_original import has_first
@@ -39,18 +44,33 @@ from .memory.original import (
     starts_here,
 )
 from .memory.strokes import moved_as_a_whole, offsets_by_hand
-from .preview.end import end_all_previews, end_preview, has_preview
 from .preview.preview import Preview
+from .preview.store import end_all_previews, end_preview, has_preview
 from .result.charts import charts
 from .result.cover import Look, cover_problem, covers, distance, is_still
-from .result.kept import keep_preview, noted_outcome
-from .result.new_object import link_beside, select_instead, write_new_object
+from .result.new_object import (
+    KINDS,
+    as_seen,
+    link_beside,
+    make_seen,
+    move_seen,
+    plain_copy,
+    select_instead,
+    show_seen,
+    write_new_object,
+    write_seen,
+)
 from .result.ngons import Polygons, rebuild, write_ngons
-from .result.plain_copy import plain_copy
-from .result.reshaped import result_positions, write_reshaped
 from .result.restore import discard_original, has_traces, restore, restore_first
-from .result.results import positions_with_strokes, write_mesh, write_shape_key
+from .result.results import (
+    keep_preview,
+    noted_outcome,
+    positions_with_strokes,
+    result_positions,
+    write_mesh,
+    write_reshaped,
+    write_shape_key,
+)
 from .result.rollback import carry_result, mesh_untouched
-from .result.seen import KINDS, as_seen, make_seen, move_seen, show_seen, write_seen
 from .result.shading import shade_edges, shade_shape
 from .result.transferred_keys import key_offsets, places_on, shares_of, transfer_keys

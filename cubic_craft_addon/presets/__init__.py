@@ -1,28 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Presets: looks that are included with the extension, and those that the artist has saved.
 
-``files`` reads and writes them, ``pictures`` are their thumbnails, ``selector`` is the property
-that the panel shows, and ``panel`` draws it.
+``included`` has the former, ``files`` reads and writes the latter, ``selector`` is the property
+that the panel shows, with a picture of each, and ``panel`` draws it.
 """
 
-from pathlib import Path
-
-import bpy
-
-from . import pictures
-from .files import INCLUDED_FOLDER
-from .selector import forget
-
-_ASSETS = str(Path(INCLUDED_FOLDER).parents[1])
+from .selector import forget, free
 
 
 def register():
-    """Register the folder of our presets."""
-    bpy.utils.register_preset_path(_ASSETS)
+    """Wait for the panel, which loads what it shows."""
 
 
 def unregister():
-    """Unregister it, and free the pictures."""
-    bpy.utils.unregister_preset_path(_ASSETS)
+    """Free what was loaded."""
     forget()
-    pictures.free()
+    free()

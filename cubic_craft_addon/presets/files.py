@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Presets as files: Python assignments like Blender's own presets, which are never executed."""
+"""Presets: those that are included, and those of the artist as files.
+
+A file has Python assignments like Blender's own presets, which are never executed.
+"""
 
 from __future__ import annotations
 
@@ -17,12 +20,11 @@ from ...solver import CubicCraftError
 from ...solver.method import LOOK
 from ..environment.file_names import folded
 from ..object_properties import PROPERTY
+from .included import INCLUDED
 
-SUBFOLDER = "cubic_craft"
-INCLUDED_FOLDER = Path(__file__).parents[1] / "assets" / "presets" / SUBFOLDER
-"""folder of the presets included with the extension, and of their pictures"""
-DEFAULT = "Cubic"
-_ORDER = ("Soft", "Rounded", DEFAULT, "Crisp", "Blocks", "Chunky", "Monolith", "As_in_the_Paper")
+PICTURES = Path(__file__).parents[1] / "assets" / "presets"
+"""of the included ones"""
+_SUBFOLDER = "cubic_craft"
 _PREFIX = "bpy.context.object.cubic_craft."
 _FORBIDDEN = str.maketrans({char: "_" for char in " !@#$%^&*(){}:\";'[]<>,.\\/?|`~=+\n\t"})
 _known: list[Preset] = []
@@ -31,33 +33,30 @@ _stamp: tuple = ()
 
 @dataclass(frozen=True)
 class Preset:
-    """A preset that has been read."""
+    """A look with a name."""
 
-    path: Path
+    identifier: str
+    """the name of the file without its suffix"""
     description: str
-    """empty for those of the artist"""
     values: Mapping[str, Any]
     """the values of the `LOOK` that it sets"""
-
-    @property
-    def identifier(self):
-        """The name of the file without its suffix."""
-        return self.path.stem
+    path: Path | None = None
+    """None for those that are included with the extension"""
 
     @property
     def name(self):
         """The display name."""
-        return bpy.path.display_name(self.path.stem, title_case=False)
+        return bpy.path.display_name(self.identifier, title_case=False)
 
     @property
     def is_included(self):
         """Whether it is included with the extension."""
-        return self.path.parent == INCLUDED_FOLDER
+        return self.path is None
 
     @property
     def picture(self):
         """The path of its picture, which may not exist."""
-        return self.path.with_suffix(".png")
+        return (self.path or PICTURES / self.identifier).with_suffix(".png")
 
     def is_of(self, properties: Any) -> bool:
         """Return whether the properties have its values."""
@@ -67,10 +66,11 @@ class Preset:
 def presets() -> list[Preset]:
     """Return all presets: included ones, then those of the artist, each from its first file."""
     global _known, _stamp
-    stamp = tuple(map(_stamp_of, bpy.utils.preset_paths(SUBFOLDER)))
-    if stamp != _stamp:
-        found: dict[str, Preset] = {}
-        for path in sorted((Path(path) for files in stamp for path, *_ in files), key=_place):
+    stamp = tuple(map(_stamp_of, bpy.utils.preset_paths(_SUBFOLDER)))
+    if stamp != _stamp or not _known:
+        found = {name: Preset(name, *look) for name, look in INCLUDED.items()}
+        paths = (Path(path) for files in stamp for path, *_ in files)
+        for path in sorted(paths, key=lambda path: path.stem.lower()):
             preset = _read(path)
             if preset is not None:
                 found.setdefault(preset.identifier, preset)
@@ -106,7 +106,7 @@ def save(name: str, properties: Any) -> Path:
         if folded(preset.identifier) == folded(stem) and preset.name != shown:
             raise CubicCraftError(f'"{name}" would replace "{preset.name}"; choose another name')
     lines = [f"{_PREFIX}{name} = {_plain(getattr(properties, name))!r}\n" for name in LOOK]
-    folder = bpy.utils.user_resource("SCRIPTS", path=f"presets/{SUBFOLDER}", create=True)
+    folder = bpy.utils.user_resource("SCRIPTS", path=f"presets/{_SUBFOLDER}", create=True)
     path = Path(folder) / f"{stem}.py"
     try:
         path.write_text("".join(["import bpy\n\n", *lines]), encoding="utf-8")
@@ -121,7 +121,7 @@ def remove(preset: Preset) -> None:
 
     Raises CubicCraftError: it is an included preset, or cannot be deleted.
     """
-    if preset.is_included:
+    if preset.path is None:
         raise CubicCraftError(f'"{preset.name}" is included with CubicCraft and cannot be removed')
     try:
         preset.path.unlink()
@@ -144,13 +144,6 @@ def _stamp_of(folder):
     return tuple((path, about.st_mtime_ns, about.st_size) for path, about in files)
 
 
-def _place(path):
-    """Return a sort key: included presets first, from soft to hard."""
-    is_included = path.parent == INCLUDED_FOLDER
-    place = _ORDER.index(path.stem) if is_included and path.stem in _ORDER else len(_ORDER)
-    return not is_included, place, path.stem.lower()
-
-
 def _read(path):
     """Return the preset of a file, None if it has no known setting."""
     try:
@@ -159,7 +152,7 @@ def _read(path):
         return None
     values: dict[str, Any] = dict(_assignments(tree))
     description = (ast.get_docstring(tree) or "").rstrip(".")  # Blender sets one
-    return Preset(path, description, values) if values else None
+    return Preset(path.stem, description, values, path) if values else None
 
 
 def _assignments(tree):

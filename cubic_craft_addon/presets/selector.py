@@ -6,11 +6,36 @@ It stores nothing: settings that match no preset are "Custom".
 
 from typing import Any
 
+import bpy.utils.previews
 from bpy.props import EnumProperty
 
 from ..screen import glimpse
-from .files import Preset, find, presets
-from .pictures import icon_of
+from .files import PICTURES, Preset, find, presets
+
+_WITHOUT = PICTURES.with_name("preset_without_picture.png")
+
+_collection: Any = None
+
+
+def icon_of(preset: Preset | None) -> int:
+    """Return the icon number of a preset; None and presets without a picture share one."""
+    global _collection
+    if _collection is None:
+        _collection = bpy.utils.previews.new()
+    path = _WITHOUT if preset is None or not preset.picture.exists() else preset.picture
+    key = str(path)
+    if key not in _collection:
+        _collection.load(key, key, "IMAGE")
+    return _collection[key].icon_id
+
+
+def free() -> None:
+    """Release all pictures."""
+    global _collection
+    if _collection is not None:
+        bpy.utils.previews.remove(_collection)
+        _collection = None
+
 
 CUSTOM, CUSTOM_NAME = "CUSTOM", "Custom"
 

@@ -133,7 +133,6 @@ def _armature(rig):
 
 
 def _rounded(ends):
-    """Return the ends of bones without their last digits."""
     size = np.abs(ends).max()
     if size == 0.0:
         return ends
@@ -171,7 +170,6 @@ def _by_places(parents, ends):
 
 
 def _read_weights(obj, groups):
-    """Return the Weights of vertex groups."""
     number_of = {name: number for number, name in enumerate(groups)}
     bone_of = {
         group.index: number_of[group.name] for group in obj.vertex_groups if group.name in number_of

@@ -9,7 +9,7 @@ from __future__ import annotations  # the solver is loaded when it is needed, no
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol, TypeVar
+from typing import Any, TypeVar
 
 import bpy
 
@@ -23,7 +23,7 @@ from ...solver.pieces.shape import Shape
 from ...solver.symmetry import LEAST_MATCHING
 from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
-from ..regions.shares import region_shares
+from ..regions.region import region_shares
 from ..settings.values import Settings
 from .bones import read_bones, read_posed_bones
 from .cages import read_cage
@@ -64,25 +64,15 @@ class Member(Piece):
         return replace(self, settings=settings, placement=replace(self.placement, styles=styles))
 
 
-class Joinable(Protocol):
-    """What `assemblies` groups."""
-
-    @property
-    def settings(self) -> Settings:
-        """The settings of the object."""
-        ...
-
-    @property
-    def in_world(self) -> Placement | None:
-        """None if it cannot be solved with others."""
-        ...
-
-
-T = TypeVar("T", bound=Joinable)
+T = TypeVar("T")
 
 
 def assemblies(items: Sequence[T]) -> list[list[T]]:
-    """Return the objects that are solved together, in the order of the first of each group."""
+    """Return the objects that are solved together, in the order of the first of each group.
+
+    `items`: one for each object, with its ``settings``, and ``in_world``, which is None if it
+    cannot be solved with others.
+    """
     joined = [item for item in items if _is_joined(item)]
     return [
         joined if _is_joined(item) else [item]
@@ -91,7 +81,7 @@ def assemblies(items: Sequence[T]) -> list[list[T]]:
     ]
 
 
-def _is_joined(item):
+def _is_joined(item: Any) -> bool:
     return item.settings.together == "SELECTION" and item.in_world is not None
 
 

@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Regions: vertex groups with a form, an orientation and a cubeness of their own."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from typing import Any
 
 import bpy
+import numpy as np
+from bpy.props import StringProperty
 
 from ...solver.errors import CubicCraftError
 from ...solver.method import Method
 from ...solver.styles.form_names import OF_OBJECT
-from ..form.settings import check_form_object
+from .. import mesh_bridge
+from ..form.settings import FormSettings, check_form_object, form_property
 from ..mesh_bridge import vertex_group
 from ..object_properties import object_properties
 
@@ -62,3 +67,52 @@ def _region(obj, number, item):
         form_object=item.form_object if item.form in OF_OBJECT else None,
         orientation=tuple(item.orientation),
     )
+
+
+def region_shares(obj: bpy.types.Object, regions: Sequence[Region]) -> np.ndarray | None:
+    """Return the shares (n,1+k) of the object's own settings and of each of its k regions.
+
+    They add up to 1: what the weights of the regions leave is the object's, and where they are more
+    than 1 together, they are scaled. None for an object without regions.
+
+    Raises CubicCraftError: a vertex group does not exist.
+    """
+    if not regions:
+        return None
+    weights = [mesh_bridge.group_weights(obj, region.group) for region in regions]
+    weights = np.stack(weights, axis=1)
+    total = weights.sum(axis=1, keepdims=True)
+    rest = np.maximum(1.0 - total, 0.0)
+    return np.concatenate([rest, weights / np.maximum(total, 1.0)], axis=1)
+
+
+def active_region(obj) -> Any:
+    """Return the region of the object that is active in its list, or None."""
+    properties = object_properties(obj)
+    number = properties.active_region
+    return properties.regions[number] if number < len(properties.regions) else None
+
+
+def add_region(obj: bpy.types.Object, group: str, settings: FormSettings) -> None:
+    """Add a region with these settings to the end of the object's list, and make it active."""
+    properties = object_properties(obj)
+    region = properties.regions.add()
+    region.group = group
+    for name in OWN:
+        setattr(region, name, getattr(settings, name))
+    properties.active_region = len(properties.regions) - 1
+
+
+class CubicCraftRegion(bpy.types.PropertyGroup):
+    """A region of an object: a vertex group with a form and a cubeness of its own."""
+
+    __annotations__ = {
+        "group": StringProperty(
+            name="Vertex Group",
+            description="Vertex group that the region covers. Where its weights are less than 1,"
+            " the region blends into what is around it",
+        )
+    } | {name: form_property(name) for name in OWN}
+
+
+register, unregister = bpy.utils.register_classes_factory((CubicCraftRegion,))

@@ -14,9 +14,9 @@ import numpy as np
 
 from ...solver import CubicCraftError
 from .. import hidden_source, mesh_bridge
-from ..environment.engine_notes import look_at_engine
-from ..handles.baked_pose import remember_pose
+from ..environment.requirements import look_at_engine
 from ..handles.own_pose import keep_poses
+from ..handles.pose import remember_pose
 from ..mesh_bridge import LastRun
 from ..read.bones import bone_places
 from ..read.cages import subdivision_of
@@ -27,7 +27,6 @@ from ..settings.overrides import SettingsOverrides
 from ..settings.rollback import settings_kept
 from . import pipeline
 from .failures import UNEXPECTED, in_words
-from .hair import hair_left_behind
 from .posed_anew import REST
 from .up_to_date import what_matters
 
@@ -287,3 +286,30 @@ def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
                 task.written = pipeline.write(
                     task.obj, solution, task.settings.result, remember, note, shade
                 )
+
+
+def hair_left_behind(obj: bpy.types.Object, result: str) -> list[str]:
+    """Return a text for the hair that does not follow a result, as a list of one or none.
+
+    Blender moves it with the surface only where a modifier deforms it, and that measures from the
+    shape below shape keys: a result in the mesh itself leaves all hair behind.
+
+    `obj`: the mesh object. `result`: {"MESH", "SHAPE_KEY", "NEW_OBJECT"}, where the result is
+    written to.
+    """
+    if result == "NEW_OBJECT":
+        return []
+    names = [
+        f'"{hair.name}"'
+        for hair in bpy.data.objects
+        if isinstance(hair.data, bpy.types.Curves)
+        and hair.data.surface == obj
+        and not (result == "SHAPE_KEY" and any(m.type == "NODES" for m in hair.modifiers))
+    ]
+    if not names:
+        return []
+    others = f" and {len(names) - 1} more" if len(names) > 1 else ""
+    return [
+        f'Hair {names[0]}{others} does not follow "{obj.name}": in its Sculpt Mode, choose Curves '
+        "> Snap to Deformed Surface"
+    ]

@@ -10,8 +10,8 @@ import numpy as np
 from ...solver import CubicCraftError
 from ...solver.styles.form_names import OF_OBJECT
 from ..form.body import form_of
-from ..form.names import FORM_SETTINGS, form_settings
 from ..form.normal_capture import has_capture, note_of
+from ..form.settings import FORM_SETTINGS, form_settings
 from ..mesh_bridge import LastRun
 from ..object_properties import object_properties
 from ..settings.properties import settings_of

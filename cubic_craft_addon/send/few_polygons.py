@@ -13,8 +13,7 @@ import numpy as np
 
 from ...solver.pieces.placement import Placement
 from .. import mesh_bridge
-from ..measure.facets import Surface
-from ..measure.form_directions import form_directions
+from ..measure.facets import Surface, form_directions
 
 _FIRST, _FINEST, _COARSEST = 0.01, 0.0025, 0.04
 """tolerances, of the largest extent"""

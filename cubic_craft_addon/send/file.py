@@ -10,8 +10,8 @@ import bpy
 import numpy as np
 
 from ...solver import CubicCraftError
+from ...solver.console.output import InputError, replacing
 from .. import mesh_bridge
-from ..environment.new_file import replacing
 from ..environment.scene_state import frame_kept, only_selected
 from .closed import find_faults
 from .marks import marks_of
@@ -121,7 +121,6 @@ def extent(objects: list[bpy.types.Object]) -> float:
 
 
 def _placed(obj: bpy.types.Object, points: np.ndarray) -> np.ndarray:
-    """Return points of an object in the world."""
     matrix = np.array(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world)
     return points @ matrix[:3, :3].T + matrix[:3, 3]
 
@@ -141,7 +140,6 @@ def _check_printable(objects: list[bpy.types.Object], scale: float, problems: li
 
 
 def _armatures(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
-    """Give what poses an object with bones."""
     for modifier in obj.modifiers:
         if isinstance(modifier, bpy.types.ArmatureModifier) and modifier.object is not None:
             yield modifier.object
@@ -153,15 +151,34 @@ def _write(run: Callable[[Path], object], path: Path) -> int:
     """Write under another name first, and return the size of the file."""
     try:
         with replacing(path) as partial:
-            try:
-                run(partial)
-            except RuntimeError as error:
-                reason = str(error).strip().splitlines()[-1].removeprefix("Error: ")
-                raise CubicCraftError(f'"{path.name}" cannot be written: {reason}') from error
-            if not partial.is_file() or not partial.stat().st_size:
-                raise CubicCraftError(f'"{path.name}" cannot be written: choose another folder')
-        return path.stat().st_size
-    except OSError as error:
-        raise CubicCraftError(
-            f'"{path.name}" cannot be written ({error.strerror or error}); choose another folder'
-        ) from error
+            run(partial)
+    except RuntimeError as error:
+        reason = str(error).strip().splitlines()[-1].removeprefix("Error: ")
+        raise CubicCraftError(f'"{path.name}" cannot be written: {reason}') from error
+    except InputError as error:
+        raise CubicCraftError(str(error)) from error
+    return path.stat().st_size
+
+
+_MILLIMETERS = 1000.0  # in a meter
+SCALES = (
+    ("SCENE", "Scene Unit", "As large as in the scene: a meter becomes 1000 mm"),
+    ("MILLIMETERS", "Millimeters", "A unit of Blender becomes a millimeter"),
+    ("SIZE", "Longest Side", "The longest side of everything that is written has a given length"),
+)
+
+
+def scale_of(
+    scale: str, size: float, scene: bpy.types.Scene, objects: list[bpy.types.Object]
+) -> float:
+    """Return how many millimeters a unit of Blender becomes.
+
+    `scale`: one of `SCALES`. `size`: length of the longest side in millimeters, for SIZE. `scene`:
+    it has the units. `objects`: all that are written.
+    """
+    if scale == "SIZE":
+        return size / max(extent(objects), 1e-12)
+    if scale == "MILLIMETERS":
+        return 1.0
+    units = scene.unit_settings
+    return _MILLIMETERS * (units.scale_length if units.system != "NONE" else 1.0)

@@ -9,8 +9,8 @@ import numpy as np
 
 from ...solver import CubicCraftError
 from ..mesh_bridge import read_values
+from .bake import Studio
 from .split import OldSurface, split_for_keys
-from .studio import Studio
 from .uv_overlap import fits_unit_square, overlap
 
 _OVERLAP = 0.01  # of what is covered: as much as decimation may leave along seams

@@ -48,7 +48,6 @@ def marks_of(
 
 
 def _bones(obj: bpy.types.Object) -> set[str]:
-    """Return the names of the bones that pose an object."""
     armatures = [mod.object for mod in obj.modifiers if isinstance(mod, bpy.types.ArmatureModifier)]
     armatures += [obj.parent] if obj.parent is not None and obj.parent.type == "ARMATURE" else []
     datas = [armature.data for armature in armatures if armature is not None]

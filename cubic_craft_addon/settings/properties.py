@@ -9,15 +9,14 @@ from bpy.props import BoolProperty, CollectionProperty, IntProperty, PointerProp
 
 from ..environment.declared import declared
 from ..form.pictures import items as form_items
-from ..form.properties import form_property
+from ..form.settings import form_property
 from ..handles import Handle
 from ..handles.pose import object_handles
 from ..handles.properties import CubicCraftHandle
 from ..mesh_bridge import KINDS, last_run, shade_edges
 from ..object_properties import PROPERTY, object_properties
 from ..presets.selector import preset_property
-from ..regions.properties import CubicCraftRegion
-from ..regions.region import Region, object_regions
+from ..regions.region import CubicCraftRegion, Region, object_regions
 from ..screen import glimpse
 from .values import SETTINGS, Settings
 
@@ -38,7 +37,6 @@ _MORE = {
 
 
 def _status(properties):
-    """Return the status of the mesh, which several objects may share."""
     run = last_run(properties.id_data)
     return run.status if run else ""
 
@@ -68,7 +66,6 @@ class RunProperties:
 
 
 def _may_be_capture(properties, obj):
-    """Return whether an object may be the normal capture of the one with the properties."""
     return obj.type in KINDS and obj != properties.id_data
 
 

@@ -76,7 +76,6 @@ def _groups(obj: bpy.types.Object) -> list[Any]:
 
 
 def _read(group: Any) -> dict[str, Any]:
-    """Return the properties of a group, except collections, as values to assign again."""
     taken = {}
     for prop in group.bl_rna.properties:
         if prop.type != "COLLECTION" and not prop.is_readonly and prop.identifier not in _DERIVED:

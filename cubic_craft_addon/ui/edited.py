@@ -5,12 +5,13 @@ The check takes too long for each redraw, so its result is kept until Blender re
 mesh has changed, or may have changed.
 """
 
+from collections.abc import Iterable
+from typing import Any
+
 import bpy
-from bpy.app.handlers import persistent
 
 from ...solver import CubicCraftError
 from .. import live, mesh_bridge
-from ..environment import handlers
 from ..environment.modes import MODES
 from ..object_properties import object_properties
 from ..run.posed_anew import is_posed_anew
@@ -27,9 +28,23 @@ _POSED = (
 )
 _BOX = 1.0  # width of an icon, that a box takes from a line
 
-_edited: Kept[bool] = Kept()
-_lost: Kept[bool] = Kept()
-_posed: Kept[bool] = Kept()
+
+def _changed_meshes(update: Any) -> tuple[int, ...]:
+    """Return the mesh of an object, too: our operator may have changed its note alone."""
+    data = update.id.original
+    mesh = data.data if isinstance(data, bpy.types.Object) else data
+    is_changed = isinstance(mesh, bpy.types.Mesh) and update.is_updated_geometry
+    return (mesh.session_uid,) if is_changed else ()
+
+
+def _changed_poses(update: Any) -> Iterable[int]:
+    is_rig = isinstance(update.id, bpy.types.Armature) and update.is_updated_geometry
+    return _posed.uids if is_rig else _changed_meshes(update)
+
+
+_edited: Kept[bool] = Kept(_changed_meshes)
+_lost: Kept[bool] = Kept(_changed_meshes)
+_posed: Kept[bool] = Kept(_changed_poses)
 """by the mesh"""
 
 
@@ -85,44 +100,3 @@ def _found_out(mesh, kept, find_out):
 def _draw_text(context, layout, text):
     for line in wrapped(text, room_for_text(context, _BOX)):
         layout.label(text=line)
-
-
-@persistent
-def _on_update(_scene, depsgraph):
-    for update in depsgraph.updates:
-        if update.is_updated_geometry:
-            # Also if the mesh itself is not named: our operator has changed the note.
-            data = update.id.original
-            mesh = data.data if isinstance(data, bpy.types.Object) else data
-            if isinstance(mesh, bpy.types.Mesh):
-                _edited.has_changed(mesh.session_uid)
-                _lost.has_changed(mesh.session_uid)
-                _posed.has_changed(mesh.session_uid)
-            elif isinstance(data, bpy.types.Armature):
-                _posed.forget()
-
-
-@persistent
-def _forget(*_):
-    _edited.forget()
-    _lost.forget()
-    _posed.forget()
-
-
-_HANDLERS = (
-    ("depsgraph_update_post", _on_update),
-    ("undo_post", _forget),
-    ("redo_post", _forget),
-    ("load_post", _forget),
-)
-
-
-def register():
-    """Begin to listen to Blender."""
-    handlers.install(_HANDLERS)
-
-
-def unregister():
-    """Listen no longer."""
-    handlers.remove(_HANDLERS)
-    _forget()

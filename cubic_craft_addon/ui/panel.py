@@ -8,9 +8,8 @@ from .. import job, live, mesh_bridge
 from ..angles import overlay as angles_overlay
 from ..animation import panel as animation_panel
 from ..environment.ahead import load_ahead
-from ..environment.engine_notes import engine_note
 from ..environment.modes import is_mode_usable
-from ..environment.requirements import check_known_requirements
+from ..environment.requirements import check_known_requirements, engine_note
 from ..form import overlay as form_overlay
 from ..form import panel as form_panel
 from ..form.settings import check_directions, check_form_object
@@ -26,7 +25,7 @@ from ..screen.text_fit import draw_wrapped, is_narrow, room_for_text, wrapped
 from ..send import panel as send_panel
 from ..settings.properties import settings_of
 from ..worn import panel as worn
-from . import buttons, edited, header, job_progress, seen, status_panel
+from . import buttons, edited, header, seen, status_panel
 from .settings_rows import draw_advanced, draw_solver, draw_volume
 from .symmetry_panel import draw_symmetry
 
@@ -90,10 +89,10 @@ def _draw_cubify(context, layout, obj):
     restore_icon, apply_icon = ("LOOP_BACK", "CHECKMARK") if has_icons else ("NONE", "NONE")
     buttons.draw(row, is_outdated=bool(changes), has_icons=has_icons)
     row = layout.row(align=True)
-    job_progress.operator(row, "cubic_craft.restore", text="Restore", icon=restore_icon)
+    buttons.operator(row, "cubic_craft.restore", text="Restore", icon=restore_icon)
     if mesh_bridge.has_first(mesh_bridge.mesh_of(obj)):
         row.operator("cubic_craft.restore_first", icon="REW")
-    job_progress.operator(row, "cubic_craft.apply", text="Apply", icon=apply_icon)
+    buttons.operator(row, "cubic_craft.apply", text="Apply", icon=apply_icon)
     problem = "; ".join(session.all_problems) if session else _problem(context, obj)
     if problem:
         _draw_problem(context, layout, problem)

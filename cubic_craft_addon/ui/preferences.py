@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import StringProperty
 
-from ..environment.package import ROOT_PACKAGE
+from ..environment.kernel_cache import ROOT_PACKAGE
 from . import panel
 
 

@@ -10,7 +10,7 @@ from .. import hidden_source, job, live, mesh_bridge
 from ..object_properties import object_properties
 from ..presets import panel as presets_panel
 from ..read.cages import subdivision_of
-from . import job_progress as job_panel
+from . import buttons
 
 # Modifiers whose result differs much from the mesh.
 _MAKING = {"ARRAY", "BOOLEAN", "NODES", "REMESH", "SCREW", "SKIN", "SOLIDIFY", "WIREFRAME"}
@@ -81,7 +81,7 @@ def draw_other(layout: Any, obj: bpy.types.Object | None) -> None:
     draw_source(layout, obj)
     running = job.current()
     if running is not None:
-        job_panel.draw(layout, running, lambda texts: tuple(texts)[-1])
+        buttons.draw_progress(layout, running, lambda texts: tuple(texts)[-1])
     else:
         properties = object_properties(obj)
         presets_panel.draw(layout, properties)

@@ -13,8 +13,7 @@ from .. import job, live, mesh_bridge
 from ..environment.modes import is_mode_usable
 from ..mesh_bridge import LastRun
 from ..screen.text_fit import longest_that_fits, room_for_text, wrapped
-from . import edited
-from . import job_progress as job_panel
+from . import buttons, edited
 
 _SECTION = "CUBIC_CRAFT_PT_last_run"
 _ARROW, _ICON = 1.0, 1.0  # widths in units of an icon
@@ -43,7 +42,7 @@ def _draw_line(context, layout, obj, run, changes):
     session, running = live.current(), job.current()
     room = room_for_text(context, _ARROW)
     if running is not None:
-        job_panel.draw(layout, running, lambda texts: longest_that_fits(texts, room - _ICON))
+        buttons.draw_progress(layout, running, lambda texts: longest_that_fits(texts, room - _ICON))
         return
     if session is not None:
         mesh = session.mesh_of(obj)
@@ -69,7 +68,6 @@ def _draw_line(context, layout, obj, run, changes):
 
 
 def _words(run, changes, *, is_edited):
-    """Return the line, from long to short, and its icon."""
     if run is None:
         return ("Not cubified yet", "Not cubified"), "BLANK1"
     if changes:

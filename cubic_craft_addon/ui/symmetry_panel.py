@@ -29,7 +29,6 @@ def draw_symmetry(layout, obj, properties):
 
 
 def _says(obj, symmetry):
-    """Return the message about the halves of an object, or an empty text, and its icon."""
     is_mirrored = bool(modifier_reflections(obj))
     if not any(symmetry):
         return "Follows the Mirror modifier" if is_mirrored else "", "MOD_MIRROR"

@@ -87,7 +87,6 @@ def _share_in_box(box, low, high):
 
 
 def _share_near(wearer, other, reach):
-    """Return the share of some vertices of an object that are near the surface of the wearer."""
     vertices = other.data.vertices
     if not len(vertices) or not len(wearer.data.polygons):
         return 0.0

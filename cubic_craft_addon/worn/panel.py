@@ -5,15 +5,14 @@ What lies on it is found when nothing is drawn for a moment, and kept until anyt
 has moved.
 """
 
+from collections.abc import Iterable
 from typing import Any
 
 import bpy
-from bpy.app.handlers import persistent
 
 from .. import job, live
-from ..environment import handlers
 from ..object_properties import object_properties
-from ..screen.found_later import FoundLater
+from ..screen.kept import FoundLater
 from ..screen.redraw import redraw_panels
 from ..screen.text_fit import draw_wrapped
 from .found import worn_by
@@ -28,7 +27,15 @@ def _names_worn_by(obj: Any) -> tuple[str, ...]:
     return tuple(other.name for other in worn_by(obj))
 
 
-_worn = FoundLater(_names_worn_by, lambda obj: bool(live.current() or job.current()), redraw_panels)
+def _changed(update: Any) -> Iterable[int]:
+    # A scene or a collection: something was added, hidden or selected.
+    is_set = isinstance(update.id, (bpy.types.Scene, bpy.types.Collection))
+    return _worn.uids if is_set or update.is_updated_transform or update.is_updated_geometry else ()
+
+
+_worn = FoundLater(
+    _names_worn_by, lambda obj: bool(live.current() or job.current()), redraw_panels, _changed
+)
 
 
 def left_out(obj: bpy.types.Object) -> list[str]:
@@ -57,43 +64,3 @@ def draw(context: bpy.types.Context, layout: Any, obj: bpy.types.Object) -> None
     box = layout.box()
     draw_wrapped(context, box.column(align=True), sentence(names), "INFO")
     box.operator("cubic_craft.select_worn", icon="RESTRICT_SELECT_OFF")
-
-
-@persistent
-def _on_update(_scene, depsgraph):
-    if _worn.is_empty:
-        return
-    for update in depsgraph.updates:
-        # A scene or a collection: something was added, hidden or selected.
-        is_set = isinstance(update.id, (bpy.types.Scene, bpy.types.Collection))
-        if is_set or update.is_updated_transform or update.is_updated_geometry:
-            _worn.has_changed()
-            return
-
-
-@persistent
-def _on_change(*_):
-    _worn.has_changed()
-
-
-@persistent
-def _on_load(*_):
-    _worn.forget()
-
-
-_HANDLERS = (
-    ("depsgraph_update_post", _on_update),
-    *((name, _on_change) for name in ("frame_change_post", "undo_post", "redo_post")),
-    ("load_post", _on_load),
-)
-
-
-def register():
-    """Begin to listen to Blender."""
-    handlers.install(_HANDLERS)
-
-
-def unregister():
-    """Listen no longer."""
-    handlers.remove(_HANDLERS)
-    _worn.forget()

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from solver.console import method_options
-from solver.console.errors import InputError
-from solver.console.options import FORMS, OneLineParser
+from solver.console.method_options import FORMS, OneLineParser
+from solver.console.output import InputError
 from solver.method import IN_LIBRARY
 
 FORMATS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from solver.console.errors import InputError
 from solver.console.obj_lines import logical_lines, vertex_of
+from solver.console.output import InputError
 from solver.mesh.polygons import triangulate
 
 PRECISION = 1e-9

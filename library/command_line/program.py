@@ -10,11 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from solver.console.crossing_words import end_words
-from solver.console.errors import InputError
 from solver.console.interruption import end_on_signals
-from solver.console.output import check_folder, check_place
-from solver.console.report import DONE, FAILED, BatchReport, counts_of, in_words
-from solver.console.temporary import replacing
+from solver.console.output import InputError, check_folder, check_place, replacing
+from solver.console.report import DONE, FAILED, counts_of, in_words, write_batch
 
 from .arguments import FORMATS, parse
 
@@ -38,14 +36,13 @@ def run(arguments: list[str]) -> int:
         return 2
     if kinds and not options.quiet:
         _say(f"left out, of kinds that are not read: {in_words(kinds)}")
-    report = BatchReport(options.report, {}, len(jobs)) if options.report else None
-    files, is_written = [], True
+    files, is_written, begin = [], True, time.perf_counter()
     for source, output in jobs:
         about = _about(source, output, options)
         files.append({"input": source, **about})
-        if report:
+        if options.report:
             try:
-                report.write(files)
+                write_batch(options.report, {}, len(jobs), begin, files)
                 is_written = True
             except (InputError, OSError) as error:
                 is_written = False
@@ -59,7 +56,6 @@ def run(arguments: list[str]) -> int:
 
 
 def _about(source: str, output: str, options: Namespace) -> dict[str, Any]:
-    """Do one run; what is wrong with it is said, and does not hinder the others."""
     try:
         about, lines = _run(source, output, options)
     except InputError as error:
@@ -141,7 +137,6 @@ def _check_kinds(source: str, output: str) -> None:
 
 
 def _check_writable(path: Path) -> None:
-    """Raise InputError for a path that cannot be written, before the long work starts."""
     check_place(str(path), path)
     if path.is_symlink():
         raise InputError(f"{path}: this is a link, which is not replaced; give another name")
@@ -161,18 +156,18 @@ def _check_output(source: str, output: str) -> None:
 def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], list[str]]:
     """Read, stylize and write; return what the report has, and a summary and notes."""
     # Late, because they take a while to import: --help and mistyped options need none.
-    from . import mesh_files
+    from . import scene_file
     from .style import stylized
 
     begin = time.perf_counter()
-    file = mesh_files.read(Path(source))
+    file = scene_file.read(Path(source))
     try:
         result = stylized(file.points, file.faces, options)
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
     with replacing(Path(output)) as temporary:
         try:
-            notes = mesh_files.write(file, temporary, result.positions, result.rotations)
+            notes = scene_file.write(file, temporary, result.positions, result.rotations)
         except InputError as error:
             raise InputError(f"{output}: {error}") from None
     seconds = time.perf_counter() - begin

@@ -8,8 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from solver import CubicCraftError, Result, stylize
 from solver.aliases import Faces
-from solver.console.errors import InputError
 from solver.console.method_options import settings_from
+from solver.console.output import InputError
 from solver.method import IN_LIBRARY, Method
 from solver.proxy.options import proxy_of
 from solver.styles import forms

@@ -145,7 +145,6 @@ def poll_usable(operator_class, context):
 
 
 def _poll_requirements(operator_class):
-    """Return whether nothing is known to be missing that a run needs."""
     try:
         check_known_requirements()
     except CubicCraftError as error:

@@ -27,7 +27,6 @@ class WatchedOperator:
 
     @reporting
     def execute(self, context):
-        """Do all the work without interruption, for scripts."""
         work = self.make_job(context)
         manager = context.window_manager
         manager.progress_begin(0, _PROGRESS_STEPS)
@@ -97,7 +96,6 @@ class WatchedOperator:
 
 
 def _is_to_cancel(event):
-    """Return whether it is Esc, or Ctrl-Z, which undoes the last click."""
     if event.value != "PRESS":
         return False
     is_undo = event.type == "Z" and (event.ctrl or event.oskey) and not (event.shift or event.alt)

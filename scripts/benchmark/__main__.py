@@ -14,7 +14,6 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
 
 from benchmark import runs  # noqa: E402
-from benchmark.machine import isolated, machine_line  # noqa: E402
 from benchmark.meshes import known_meshes, made_meshes, scaled_meshes  # noqa: E402
 from benchmark.page import page  # noqa: E402
 
@@ -47,7 +46,7 @@ def main():
     meshes = known_meshes(options.meshes)
     if options.quick:
         meshes = {name: mesh for name, mesh in meshes.items() if name in WITH_PYMESHLAB}
-    results = {"machine": machine_line(), "runs": count}
+    results = {"machine": runs.machine_line(), "runs": count}
     for part, measure in PARTS.items():
         results[part] = []
         for mesh, cubeness, figures in measure(meshes, count) if part in options.parts else ():
@@ -63,27 +62,28 @@ def main():
 
 def _ten(meshes, count):
     for mesh in meshes.values():
-        yield mesh, runs.CUBENESS, isolated(runs.ten_iterations, source=mesh.source, runs=count)
+        case = {"source": mesh.source, "runs": count}
+        yield mesh, runs.CUBENESS, runs.isolated(runs.ten_iterations, **case)
 
 
 def _pymeshlab(meshes, count):
     for mesh in (meshes[name] for name in WITH_PYMESHLAB if name in meshes):
         for cubeness in (0.2, 0.4) if mesh.vertices < LARGE / 2 else (0.4,):
             case = {"path": mesh.path, "cubeness": cubeness, "runs": count}
-            yield mesh, cubeness, isolated(runs.beside_pymeshlab, **case)
+            yield mesh, cubeness, runs.isolated(runs.beside_pymeshlab, **case)
 
 
 def _scaling(meshes, count):
     largest = 30_000 if count == 1 else 1_100_000
     for mesh in scaled_meshes(meshes.get("bunny"), largest):
         own = count if mesh.vertices < LARGE else 1
-        yield mesh, runs.CUBENESS, isolated(runs.one_size, path=mesh.path, runs=own)
+        yield mesh, runs.CUBENESS, runs.isolated(runs.one_size, path=mesh.path, runs=own)
 
 
 def _defaults(meshes, count):
     for mesh in (*meshes.values(), *made_meshes(4 if count == 1 else 6)):
         case = {"path": mesh.path, "cubeness": runs.CUBENESS, "runs": count}
-        yield mesh, runs.CUBENESS, isolated(runs.both_settings, **case)
+        yield mesh, runs.CUBENESS, runs.isolated(runs.both_settings, **case)
 
 
 PARTS = {"ten": _ten, "pymeshlab": _pymeshlab, "scaling": _scaling, "defaults": _defaults}

@@ -147,7 +147,6 @@ def _head(case):
 
 
 def _end(case, program, what):
-    """Return when a program ends, and whether by its own stop."""
     iterations = f"{median_of(case, program, 'iterations'):.0f}"
     if any(run["reason"] != "converged" for run in case[program]):
         iterations += ", cut off"

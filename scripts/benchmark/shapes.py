@@ -103,7 +103,6 @@ def _unit(vectors):
 
 
 def _joined(parts):
-    """Return meshes as the parts of one."""
     offsets = np.cumsum([0, *(len(V) for V, _ in parts)])[:-1]
     V = np.concatenate([V for V, _ in parts])
     return V, np.concatenate([F + k for (_, F), k in zip(parts, offsets, strict=True)])

@@ -15,11 +15,11 @@ sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names 
 from headless_render import leave  # noqa: E402
 
 from cubic_craft.cubic_craft_addon.command_line.process.quiet import mute_stdout, terminal  # noqa: E402
-from cubic_craft.solver.console.errors import InputError  # noqa: E402
 from cubic_craft.solver.console.interruption import end_on_signals  # noqa: E402
+from cubic_craft.solver.console.output import InputError  # noqa: E402
 
 PROGRAM = "figures"
-ALL = ["1", "2", "3", "5", "6", "character", "forms", "targets", "captures", "rigs", "low_poly"]
+ALL = ["1", "2", "3", "5", "6", "character", "forms", "captures", "rigs", "low_poly"]
 """figures; the fourth is a picture of the window tests"""
 
 

@@ -21,13 +21,13 @@ from cubic_craft.cubic_craft_addon.command_line.picture.gallery import YAW, Grou
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import surface
 from cubic_craft.cubic_craft_addon.command_line.process.progress import ProgressBar
 from cubic_craft.cubic_craft_addon.command_line.reading.load_meshes import Loaded, load
-from cubic_craft.cubic_craft_addon.command_line.solving.pose import handles_of_all
+from cubic_craft.cubic_craft_addon.command_line.solving.cubify_all import handles_of_all
 from cubic_craft.cubic_craft_addon.command_line.writing.detached import detached_copy
 from cubic_craft.cubic_craft_addon.mesh_bridge import original_positions, read_values
 from cubic_craft.cubic_craft_addon.read.member import read_member
 from cubic_craft.cubic_craft_addon.run.pipeline import prepare, solve
 from cubic_craft.cubic_craft_addon.settings.values import Settings
-from cubic_craft.solver.console.errors import InputError
+from cubic_craft.solver.console.output import InputError
 from cubic_craft.solver.errors import CubicCraftError
 from cubic_craft.solver.method import PAPER
 

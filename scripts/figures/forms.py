@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Forms: one mesh as each of them; and one as what another add-on is compared by."""
+"""Forms: one mesh as each of them."""
 
 import numpy as np
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
-from cubic_craft.cubic_craft_addon.command_line.reading.form_object import FormMesh, make_form
+from cubic_craft.cubic_craft_addon.command_line.reading.load_meshes import FormMesh, make_form
 from cubic_craft.cubic_craft_addon.mesh_bridge import shade_shape
 from cubic_craft.cubic_craft_addon.settings.values import Settings
 
@@ -30,34 +30,15 @@ FORMS = {
     "object: a house": {"form": "OBJECT"},
 }
 """label: settings"""
-TARGETS = {
-    "cube": {"form": "CUBE"},
-    "octahedron": {"form": "OCTAHEDRON"},
-    "pyramid, 4 sides": {"form": "PYRAMID", "form_sides": 4},
-    "prism, 6 sides": {"form": "PRISM", "form_sides": 6},
-    "rounded cube": {"form": "ROUNDED"},
-    "five directions": {"form": "FACES", "form_directions": "1 0 1, -1 0 1, 0 1 0, 0 -1 0, 0 0 -1"},
-    "directions of a house": {"form": "DIRECTIONS"},
-    "hull of a house": {"form": "OBJECT"},
-}
 
 
 def compose(meshes: FigureMeshes) -> list[Group]:
     """Return the versions of Blender's own bear, whatever meshes there are."""
-    return _compose(FORMS, meshes)
-
-
-def compose_targets(meshes: FigureMeshes) -> list[Group]:
-    """Return the versions of the bear for the page that compares them."""
-    return _compose(TARGETS, meshes)
-
-
-def _compose(forms: dict[str, dict], meshes: FigureMeshes) -> list[Group]:
     (model,) = meshes.there([], instead=["bear"])
     house = make_form(_house())
     groups = []
-    for label, settings in forms.items():
-        own = {"form_object": house} if settings["form"] in ("OBJECT", "DIRECTIONS") else {}
+    for label, settings in FORMS.items():
+        own = {"form_object": house} if settings["form"] == "OBJECT" else {}
         shape = meshes.cubified(model, CUBENESS, **settings, **own)
         groups.append(meshes.group(model, shape, label, "green"))
         shade_shape(groups[-1].copies[0], {"crispness": Settings.crispness})
@@ -65,7 +46,6 @@ def _compose(forms: dict[str, dict], meshes: FigureMeshes) -> list[Group]:
 
 
 def _house() -> FormMesh:
-    """Return walls and a roof, about the origin."""
     points = [(x, y, z) for y in (-HALF_LENGTH, HALF_LENGTH) for x, z in HOUSE]
     count = len(HOUSE)
     ends = [(0, k, k + 1) for k in range(1, count - 1)]

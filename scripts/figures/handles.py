@@ -44,7 +44,6 @@ def compose(meshes: FigureMeshes) -> list[Group]:
 
 
 def _color(mesh: bpy.types.Mesh, finish: str, handles: tuple[Any, ...]) -> None:
-    """Paint the vertices of the handles onto a finish."""
     color, roughness = FINISHES[finish]
     colors = np.ones((len(mesh.vertices), 4), np.float32)
     colors[:, :3] = color

@@ -44,14 +44,12 @@ def compose(meshes: FigureMeshes) -> list[Group]:
 def _add_cube(
     group: Group, model: Model, angles: tuple[float, float, float], clay: bpy.types.Material
 ) -> None:
-    """Put a cube of the orientation on the floor, before the mesh and to its left."""
     axes = Euler([math.radians(angle) for angle in angles]).to_matrix()
     upright = model.place.to_3x3().normalized() @ axes
     stand_beside(group, _cube(EDGE * group.extent, clay), upright.to_4x4())
 
 
 def _cube(edge: float, clay: bpy.types.Material) -> bpy.types.Object:
-    """Return a cube, slightly rounded, in no scene."""
     edited = bmesh.new()
     bmesh.ops.create_cube(edited, size=edge)
     mesh = bpy.data.meshes.new("Cube")

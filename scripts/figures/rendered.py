@@ -48,7 +48,6 @@ FIGURES = {
     "captures": Figure("figure_captures", captures.compose, 460),
     "rigs": Figure("figure_rigs", rigs.compose, 520),
     "low_poly": Figure("figure_low_poly", low_poly.compose, 520),
-    "targets": Figure("figure_targets", forms.compose_targets, 560),
 }
 
 
@@ -85,7 +84,6 @@ def render_figure(figure: Figure, meshes: FigureMeshes, options: Namespace) -> P
 
 
 def _gallery(figure: Figure, meshes: FigureMeshes) -> Gallery:
-    """Return the furnished gallery of a figure, in a scene that is shown."""
     groups = figure.compose(meshes)
     scene = scene_for_gallery()
     for group in groups:

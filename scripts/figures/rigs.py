@@ -48,7 +48,6 @@ def compose(meshes: FigureMeshes) -> list[Group]:
 
 
 def _rig(model: Model) -> bpy.types.Object:
-    """Return an armature that deforms the model, with automatic weights."""
     bpy.context.window.scene = model.scene
     rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
     model.scene.collection.objects.link(rig)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A cubic bear: of each preset, beside its file, and as the icon for the extensions platform.
+"""A cubic bear: of each preset, and as the icon for the extensions platform.
 
-The settings are taken from the files, the picture of what has none shows the bear as it was.
+The settings are those of the presets, the picture of what has none shows the bear as it was.
 """
 
 from pathlib import Path
@@ -10,7 +10,7 @@ from typing import Any
 from figures.shapes import bear as add_bear
 
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import surface
-from cubic_craft.cubic_craft_addon.presets.files import INCLUDED_FOLDER, presets
+from cubic_craft.cubic_craft_addon.presets.files import PICTURES, presets
 from cubic_craft.cubic_craft_addon.read.member import read_member
 from cubic_craft.cubic_craft_addon.run.pipeline import prepare, solve
 from cubic_craft.cubic_craft_addon.settings.values import Settings
@@ -31,7 +31,7 @@ def render_presets(only: list[str] | None, samples: int) -> None:
     scene = set_up(PICTURE, samples)
     if not only or WITHOUT in only:
         fur, bear.data.materials[0] = bear.data.materials[0], surface("Grey", GREY, roughness=0.5)
-        render(scene, INCLUDED_FOLDER.parents[1] / f"{WITHOUT}.png", PICTURE)
+        render(scene, PICTURES.with_name(f"{WITHOUT}.png"), PICTURE)
         bear.data.materials[0] = fur
     for preset in presets():
         if preset.is_included and (not only or preset.identifier in only):

@@ -4,7 +4,7 @@
 Python runs signal handlers in the main thread, which cannot be told anything while it is in other
 code: a factorization, or Blender that renders or exports. So our thread waits for the signal,
 tidies up and ends the process at once. Nothing is lost by that: every file is written under a
-temporary name (see `temporary`).
+temporary name (see `output`).
 """
 
 import os
@@ -13,7 +13,7 @@ import sys
 import threading
 from collections.abc import Callable
 
-from .temporary import remove_temporaries
+from .output import remove_temporaries
 
 _WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "told to end"}
 _CLEAN_LINE = b"\r\x1b[2K\x1b[?25h"

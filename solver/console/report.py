@@ -8,32 +8,24 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from .temporary import replacing
+from .output import replacing
 
 DONE, KEPT, FAILED = "done", "kept", "failed"
 """what became of a file; kept is what an earlier run has done"""
 
 
-class BatchReport:
-    """A report in a file.
+def write_batch(
+    path: Path, head: dict[str, Any], total: int, begin: float, files: list[dict[str, Any]]
+) -> None:
+    """Write what is known now of so many files in total.
 
-    `head`: what is known before the first file. `total`: number of files.
+    `head`: what was known before the first. `begin`: of the batch, as `time.perf_counter`. `files`:
+    all that have ended, each with its ``status``. Raises InputError, OSError: it cannot be written.
     """
-
-    def __init__(self, path: Path, head: dict[str, Any], total: int) -> None:
-        self._path, self._head, self._total = path, head, total
-        self._begin = time.perf_counter()
-
-    def write(self, files: list[dict[str, Any]]) -> None:
-        """Write what is known now.
-
-        `files`: all that have ended, each with its ``status``. Raises InputError, OSError: the file
-        cannot be written.
-        """
-        seconds = {"total": time.perf_counter() - self._begin}
-        counts, unfinished = counts_of(files), self._total - len(files)
-        about = {"counts": counts, "unfinished": unfinished, "files": files, "seconds": seconds}
-        write_json(self._path, self._head | about)
+    seconds = {"total": time.perf_counter() - begin}
+    counts, unfinished = counts_of(files), total - len(files)
+    about = {"counts": counts, "unfinished": unfinished, "files": files, "seconds": seconds}
+    write_json(path, head | about)
 
 
 def counts_of(files: Iterable[dict[str, Any]]) -> dict[str, int]:

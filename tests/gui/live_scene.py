@@ -213,8 +213,7 @@ def check_clean():
             ours = [h for h in installed if h.__module__.endswith("live.handlers")]
             assert not ours, f"{name}: {ours}"
     handlers = importlib.import_module(f"{EXTENSION}.cubic_craft_addon.live.handlers")
-    wake = importlib.import_module(f"{EXTENSION}.cubic_craft_addon.live.wake")
-    assert handlers._session is None and wake._listener is None
+    assert handlers._session is None
     header = bpy.types.STATUSBAR_HT_header
     assert header.draw is getattr(header, "_draw_orig", header.draw), "a status text is left"
     session = live()._session

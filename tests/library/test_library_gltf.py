@@ -9,7 +9,7 @@ import trimesh
 from command import QUICK, cubic_craft, quick, refused
 from scipy.spatial.transform import Rotation
 
-from cubic_craft.command_line.mesh_files import read
+from cubic_craft.command_line.scene_file import read
 from scripts.benchmark.shapes import blob
 
 V, F = blob(2)

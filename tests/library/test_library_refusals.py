@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from command import COMMAND, QUICK, in_a_process, refused
 
-from cubic_craft.console.temporary import replacing
+from cubic_craft.console.output import replacing
 from scripts.benchmark.shapes import blob
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"

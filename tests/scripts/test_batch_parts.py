@@ -15,9 +15,8 @@ from scripts.cubic_craft.cubic_craft_addon.command_line.batch.task import (
     job_of,
     key_of,
 )
-from scripts.cubic_craft.cubic_craft_addon.command_line.options.arguments import parse
-from scripts.cubic_craft.cubic_craft_addon.command_line.options.one_of_batch import Worker
-from scripts.cubic_craft.solver.console.errors import InputError
+from scripts.cubic_craft.cubic_craft_addon.command_line.options.arguments import Worker, parse
+from scripts.cubic_craft.solver.console.output import InputError
 from scripts.cubic_craft.solver.console.report import in_words
 
 

@@ -48,7 +48,7 @@ def folder(tmp_path_factory):
     """Folder with all rendered figures and the scenes that they show."""
     folder = tmp_path_factory.mktemp("figures")
     size = ("--rough", "--width", WIDTH, "--samples", 1)
-    names = ("character", "forms", "targets", "captures", "rigs", "low_poly")
+    names = ("character", "forms", "captures", "rigs", "low_poly")
     folders = ("--output", folder, "--save-blend", folder)
     process = figures("--only", 1, 2, 3, 5, 6, *names, *size, *folders)
     assert process.returncode == 0, process.stderr

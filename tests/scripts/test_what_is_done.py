@@ -29,6 +29,7 @@ ALLOWED = {
     (f"{COMMAND_LINE}/batch/task.py", "subprocess"),  # the command itself, once per file
     (f"{COMMAND_LINE}/process/child.py", "subprocess"),  # the same, and what may crash
     ("solver/__init__.py", "import_module"),  # its own modules, at their first use
+    ("operators/__init__.py", "import_module"),  # its own files
     ("solver/optional_packages.py", "import_module"),  # packages named in our code
     ("solver/backends/gpu_arch.py", "subprocess"),  # a probe without input
     ("solver/backends/engine_lock.py", "ctypes"),  # keeps Taichi's program for ever
@@ -87,7 +88,7 @@ def test_the_manifest_asks_for_files_only():
     manifest = tomllib.loads((ROOT / "blender_manifest.toml").read_text(encoding="utf-8"))
     assert list(manifest["permissions"]) == ["files"]
     writers = {name_of(p) for p in EXTENSION if _called(p) & WRITERS}
-    names = ("environment/lock", "environment/new_file", "presets/files", "send/normal_map")
+    names = ("environment/lock", "presets/files", "send/normal_map")
     animation = ("animation/playback", "animation/point_cache", "animation/recording")
     writers = {name for name in writers if not name.startswith((COMMAND_LINE, "solver/console"))}
     assert writers == {f"cubic_craft_addon/{name}.py" for name in (*names, *animation)}

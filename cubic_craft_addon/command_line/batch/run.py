@@ -5,18 +5,20 @@ import json
 import math
 import os
 import textwrap
+import time
 from argparse import Namespace
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ....solver.console.errors import InputError
-from ....solver.console.report import DONE, FAILED, KEPT, BatchReport, counts_of, in_words
-from ..options.one_of_batch import Worker
-from ..process.one_line import one_line
+from ....solver.console.output import InputError
+from ....solver.console.report import DONE, FAILED, KEPT, counts_of, in_words, write_batch
+from ..options.arguments import Worker
 from ..process.output_files import check_writable
 from ..process.progress import ProgressBar
+from ..process.quiet import one_line
 from ..process.version import version
 from .sources import find_sources
 from .task import Job, do, job_of, key_of
@@ -67,7 +69,9 @@ def run_batch(
             return {"status": FAILED, "error": f"{error.strerror or error}: {error.filename}"}
 
     head = {"output_folder": str(options.output_folder.resolve()), "kinds_left_out": kinds}
-    report = BatchReport(options.report, head, len(jobs)) if options.report else None
+    report = options.report and partial(
+        write_batch, options.report, head, len(jobs), time.perf_counter()
+    )
     with bar.task(f"{len(jobs)} files") as task, ThreadPoolExecutor(count) as pool:
         # A thread waits for each process: a crash of Blender ends no other.
         waiting = {pool.submit(work, job): job for job in jobs}
@@ -108,7 +112,7 @@ def _told(results, jobs, options, bar, report, task) -> tuple[dict[Job, dict[str
                 notices.add(notice)
         if report:
             try:
-                report.write([files[job] for job in jobs if job in files])
+                report([files[job] for job in jobs if job in files])
                 error = ""
             except (InputError, OSError) as reason:
                 error = str(reason)
@@ -160,7 +164,6 @@ def _label(job: Job) -> str:
 
 
 def _summary(about: dict[str, Any]) -> str:
-    """Return one line about a file, without its name, from what `task.do` returns."""
     if about["status"] == FAILED:
         return f"failed: {one_line(about['error'])}"
     if about["status"] == KEPT:

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path, PurePath
 
-from ....solver.console.errors import InputError
+from ....solver.console.output import InputError
 from ....solver.console.report import in_words
 from ..options.formats import READABLE, listing
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ....solver.console.report import DONE, FAILED, KEPT
-from ..options.one_of_batch import options_for
+from ..options.arguments import options_for
 from ..process.child import run_child, thread_variables
 from ..process.output_files import written
 
@@ -100,7 +100,6 @@ def _report(job: Job, key: str) -> dict[str, Any]:
 
 
 def _why_failed(job: Job, code: int, words: str) -> str:
-    """Say in one line why a process has failed."""
     if not code:
         return "its results are not those that its process has written"
     if said := _ERROR.search(words):

@@ -4,15 +4,21 @@
 import argparse
 import json
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NamedTuple, NoReturn
 
-from ....solver.console.method_options import Adder, add_settings, as_in_paper, defaults
-from ....solver.console.options import FORMS, OneLineParser, number
+from ....solver.console.method_options import (
+    FORMS,
+    Adder,
+    OneLineParser,
+    add_settings,
+    as_in_paper,
+    defaults,
+    number,
+)
 from ....solver.method import Advanced, Computation, Kept, KeptInScene, Method, Style, StyleInScene
 from .checks import check_batch, check_single
 from .handles_file import read_handles
 from .help_texts import COMMON, EPILOG, HELP, WHOLE_EPILOG
-from .one_of_batch import Worker, options_for
 from .region_option import region_option
 
 DEFAULTS = {**defaults(Method), "symmetry": ("auto", "")}
@@ -20,8 +26,6 @@ DEFAULTS = {**defaults(Method), "symmetry": ("auto", "")}
 
 
 class _HelpAll(argparse.Action):
-    """Shows all options."""
-
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> NoReturn:
         _parser(parser.prog, is_whole=True).print_help()
         parser.exit()
@@ -154,3 +158,26 @@ def _axes(text: str) -> str:
             f"{text!r} is none of auto, off, x, y, z, xy, xz, yz and xyz"
         )
     return "".join(sorted(axes))
+
+
+class Worker(NamedTuple):
+    """Which file a process does."""
+
+    path: str
+    """absolute"""
+    name: str
+    """of its results"""
+    key: str
+    """of all that decides about its results"""
+
+
+def options_for(options: argparse.Namespace, name: str, path: Path) -> argparse.Namespace:
+    """Return the options of a batch as those of a run with one file."""
+    folder = options.output_folder.resolve()
+    own = argparse.Namespace(**vars(options))
+    own.jobs = own.force = own.recursive = own.only = own.output_folder = None
+    own.inputs, own.report = [path], folder / ".cubic_craft" / f"{name}.json"
+    own.output = None if options.no_render or options.bake else folder / f"{name}.png"
+    own.save_mesh = options.save_mesh and folder / f"{name}{options.save_mesh}"
+    own.bake = options.bake and folder / f"{name}{options.bake}"
+    return own

@@ -4,7 +4,7 @@
 from argparse import Namespace
 from pathlib import Path
 
-from ....solver.console.errors import InputError
+from ....solver.console.output import InputError
 from ..process.output_files import check_writable, meshes, numbered
 from .formats import ANIMATED, FOR_ENGINES, READABLE, WRITABLE, listing
 
@@ -119,7 +119,6 @@ def _check_bake(options: Namespace) -> None:
 
 
 def _check_is_something_to_do(options: Namespace) -> None:
-    """Refuse --no-render together with pictures, and without anything else to write."""
     if options.low_poly and options.save_mesh is None:
         raise InputError(f"--low-poly: add --save-mesh with {listing(FOR_ENGINES)}")
     if options.no_render and (options.output or options.turntable):
@@ -129,13 +128,11 @@ def _check_is_something_to_do(options: Namespace) -> None:
 
 
 def _check_suffix(option: str, path: Path, allowed: tuple[str, ...]) -> None:
-    """Refuse an output whose name ends otherwise."""
     if path.suffix.lower() not in allowed:
         raise InputError(f"{option} {path}: the name must end in {listing(allowed)}")
 
 
 def _check_mesh(options: Namespace, path: Path) -> None:
-    """Refuse a mesh in a format that is not written, and levels of detail that it cannot hold."""
     _check_suffix("--save-mesh", path, WRITABLE)
     if options.low_poly and path.suffix.lower() not in FOR_ENGINES:
         raise InputError(f"--low-poly: is for --save-mesh with {listing(FOR_ENGINES)}")
@@ -176,7 +173,6 @@ def _refuse_special(path: Path) -> None:
 
 
 def _check_outputs(options: Namespace) -> None:
-    """Refuse output paths of the wrong kind, that cannot be written, or that collide."""
     outputs: dict[str, list[Path]] = {}
     if options.output:
         _check_suffix("--output", options.output, (".png",))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ....solver.console.errors import InputError
+from ....solver.console.output import InputError
 
 KINDS = ("group", "vertices", "box")
 """what says which vertices belong to a handle; exactly one of them"""

@@ -9,10 +9,9 @@ from pathlib import Path
 
 import bpy
 
-from ....solver.console.errors import InputError
-from ....solver.console.temporary import replacing
+from ....solver.console.output import InputError, replacing
 from ..process.quiet import captured
-from ..reading.blender_operator import reason
+from ..reading.load_meshes import reason
 from .gallery import Gallery
 
 ENGINES = {"cycles": "CYCLES", "workbench": "BLENDER_WORKBENCH"}

@@ -60,7 +60,6 @@ def _lights(scene: bpy.types.Scene) -> None:
 
 
 def _floor(gallery: Gallery) -> None:
-    """Lay a floor that fills the picture, as if a pool of light lay on it."""
     far = 100.0 * max(gallery.width, gallery.height)
     mesh = bpy.data.meshes.new("Floor")
     mesh.from_pydata(

@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from ....solver.console.temporary import remove_left_behind
+from ....solver.console.output import remove_left_behind
 
 CRASHING = (".usd", ".usda", ".usdc", ".usdz", ".abc", ".fbx")
 """formats whose importers trust the file, and crash Blender where it is broken"""

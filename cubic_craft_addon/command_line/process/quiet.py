@@ -46,3 +46,8 @@ def captured(verbose: bool) -> Iterator[None]:
             sys.stderr.flush()
             os.dup2(_terminals[-1], 2)
             os.close(_terminals.pop())
+
+
+def one_line(text: str) -> str:
+    """Return a text, such as a file's name, as it can be printed in one line."""
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)

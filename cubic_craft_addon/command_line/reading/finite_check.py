@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ....solver.console.errors import InputError
+from ....solver.console.output import InputError
 
 PLY_TYPES = {"char": "i1", "uchar": "u1", "int": "i4", "uint": "u4", "float": "f4"}
 """those that NumPy does not call the same"""

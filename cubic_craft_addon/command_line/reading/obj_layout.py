@@ -17,8 +17,8 @@ import bmesh
 import bpy
 import numpy as np
 
-from ....solver.console.errors import InputError
 from ....solver.console.obj_lines import logical_lines, vertex_of
+from ....solver.console.output import InputError
 from ...mesh_bridge import read_position
 
 

@@ -10,8 +10,7 @@ from typing import Any
 
 import bpy
 
-from ....solver.console.errors import InputError
-from ....solver.console.temporary import replacing
+from ....solver.console.output import InputError, replacing
 from ....solver.errors import CubicCraftError
 from ...animation.bake import Bake, BakeOptions
 from ...animation.exchange import export_frames
@@ -21,8 +20,7 @@ from ...settings.values import Settings
 from ..process.progress import ProgressBar
 from ..process.quiet import captured
 from ..reading.load_meshes import Loaded
-from .cubify_all import check_groups, settings_of_object
-from .pose import handles_of_all
+from .cubify_all import check_groups, handles_of_all, settings_of_object
 
 
 @dataclass
@@ -96,5 +94,4 @@ def _export(path, baked, frames, verbose):
 
 
 def _cache_of(obj):
-    """Return the point cache that a baked object plays."""
     return Path(bpy.path.abspath(obj.modifiers[0].filepath))

@@ -14,7 +14,7 @@ import numpy as np
 from ....solver.console.method_options import names_of_options
 from ....solver.console.report import write_json
 from ....solver.method import Advanced, Kept, KeptInScene, Style, StyleInScene
-from ...environment.engine_notes import new_engine_warnings
+from ...environment.requirements import new_engine_warnings
 from ...run.pipeline import MemberProblem, Solution
 from ..process.output_files import written
 from ..process.version import version
@@ -63,7 +63,6 @@ def _made(options: Namespace) -> dict[str, Any]:
 
 
 def _head(options: Namespace) -> dict[str, Any]:
-    """Return what all reports begin with."""
     settings = {name: getattr(options, name) for name in sorted(SETTINGS)}
     strength = options.capture_strength if options.capture else None
     return {

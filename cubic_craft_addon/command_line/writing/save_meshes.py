@@ -10,19 +10,17 @@ from typing import Any
 
 import bpy
 
-from ....solver.console.errors import InputError
-from ....solver.console.temporary import replacing
+from ....solver.console.output import InputError, replacing
 from ....solver.errors import CubicCraftError
 from ...run import pipeline
 from ...send.file import ready
+from ...send.normal_map import MapOptions, passing_normal_map
 from ...send.targets import TARGETS, Options, exporter, settings, target_of
 from ..process.output_files import leveled
 from ..process.quiet import captured
-from ..reading.blender_operator import reason
-from ..reading.load_meshes import Loaded
+from ..reading.load_meshes import Loaded, reason
 from ..solving.cubify_all import Sculpture
 from .detached import detached_copy
-from .low_poly import low_poly
 from .write_obj import write_obj
 
 
@@ -91,7 +89,6 @@ def _save_blend(path: Path, sculptures: list[Sculpture], number: int, verbose: b
 
 
 def _write(path: Path, writer: Callable[..., Any], verbose: bool) -> None:
-    """Have an operator of Blender write a file."""
     has_own_name = path.suffix.lower() == ".usdz"  # so that its layer has it, not that of our file
     with captured(verbose), replacing(path, has_own_name) as temporary:
         try:
@@ -138,7 +135,6 @@ def _check_rows(path: Path, sculptures: list[Sculpture], loaded: Loaded) -> None
 
 
 def _export(path: Path, copies: list[bpy.types.Object], verbose: bool) -> None:
-    """Run Blender's exporter for the copies, and for them only."""
     for obj in bpy.context.view_layer.objects:
         obj.select_set(obj in copies)
     target, options = target_of(path.suffix), Options(with_animation=False, suffix=path.suffix)
@@ -148,3 +144,45 @@ def _export(path: Path, copies: list[bpy.types.Object], verbose: bool) -> None:
         _write(path, lambda filepath: write_obj(path, Path(filepath), copies, export), verbose)
     else:
         _write(path, export, verbose)
+
+
+LEAST = 12
+"""triangles of an object"""
+
+
+@contextlib.contextmanager
+def low_poly(
+    sculptures: list[Sculpture], triangles: int, path: Path
+) -> Iterator[tuple[list[bpy.types.Object], list[str]]]:
+    """Give low-poly versions of all objects, which carry their results, during the block.
+
+    `triangles`: of all meshes together, shared among them by the triangles that they have. `path`:
+    of the file that they are for. Gives the objects, and what should be known about them, a line
+    each. Raises InputError: there is no Cycles, or a mesh has no room for another UV map.
+    """
+    total = sum(sculpture.member.triangles for sculpture in sculptures)
+    objects: list[bpy.types.Object] = []
+    problems: list[str] = []
+    with contextlib.ExitStack() as passing:
+        for sculpture in sculptures:
+            member = sculpture.member
+            share = max(LEAST, triangles * member.triangles // total)
+            options = MapOptions(triangles=share)
+            try:
+                made = passing.enter_context(
+                    passing_normal_map(sculpture.object, member.alone, options)
+                )
+            except CubicCraftError as error:
+                raise InputError(f"{path}: {error}") from error
+            objects.append(made.object)
+            for user in sculpture.users[1:]:
+                twin = user.copy()
+                passing.callback(bpy.data.objects.remove, twin)
+                twin.data, twin.name = made.object.data, f"{user.name} Low"
+                for modifier in [m for m in twin.modifiers if m.type != "ARMATURE"]:
+                    twin.modifiers.remove(modifier)  # the low-poly mesh has them
+                bpy.context.scene.collection.objects.link(twin)
+                objects.append(twin)
+            problems += [f"{path}: {problem}" for problem in made.problems]
+        bpy.context.view_layer.update()
+        yield objects, problems

@@ -31,8 +31,6 @@ _EDGE_ON = 0.15  # cosine to the view below which a ring cannot be dragged
 
 @dataclass(frozen=True)
 class _Grab:
-    """The handle being dragged."""
-
     gizmo: Any
     number: int
     """of the handle"""

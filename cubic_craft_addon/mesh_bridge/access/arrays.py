@@ -91,7 +91,6 @@ def corner_vertices(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def _position_of(mesh: bpy.types.Mesh) -> bpy.types.FloatVectorAttribute:
-    """Look up the ``position`` attribute."""
     attribute = mesh.attributes["position"]
     assert isinstance(attribute, bpy.types.FloatVectorAttribute)
     return attribute

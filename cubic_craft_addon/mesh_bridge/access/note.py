@@ -23,13 +23,34 @@ It is JSON text, because custom properties cannot hold lists of texts, with some
 A property of that name with any other value is not ours and is never changed.
 """
 
+import hashlib
 import json
 from types import NoneType
 from typing import Any
 
 import bpy
+import numpy as np
 
 from ....solver.errors import CubicCraftError
+
+
+def fingerprint(positions: np.ndarray) -> str:
+    """Hash the bits of a shape.
+
+    `positions`: (n,3) float32. Returns a str of 32 hexadecimal digits; equal only for the same
+    number of vertices and the same bits.
+    """
+    bits = np.ascontiguousarray(positions, np.float32)
+    return hashlib.blake2b(bits.data, digest_size=16).hexdigest()
+
+
+def fingerprint_of_values(positions: np.ndarray) -> str:
+    """Hash the values of a shape: `fingerprint`, but -0 is 0.
+
+    Edit Mode turns -0 into 0 in many shape keys, which is not an edit by the artist.
+    """
+    return fingerprint(positions + np.float32(0))
+
 
 NOTE = "cubic_craft_note"
 
@@ -115,5 +136,4 @@ def is_run(part: Any) -> bool:
 
 
 def _fits(part: Any, types: dict[str, Any]) -> bool:
-    """Return whether a part of a note has the required entries."""
     return isinstance(part, dict) and all(isinstance(part.get(n), t) for n, t in types.items())

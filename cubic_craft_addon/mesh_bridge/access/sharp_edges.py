@@ -141,7 +141,6 @@ def _rename(mesh, name, to):
 
 
 def _has(mesh: bpy.types.Mesh, name: str) -> bool:
-    """Return whether a flag is set anywhere."""
     flags = mesh.attributes.get(name)
     if not isinstance(flags, bpy.types.BoolAttribute):
         return False

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The triangles that a mesh is solved on; the mesh itself keeps its faces."""
+"""The triangles that a mesh is solved on, its selected faces, and the surface that is seen."""
 
+import contextlib
+
+import bmesh
 import bpy
 import numpy as np
 
@@ -49,3 +52,65 @@ def faces_of_triangles(mesh: bpy.types.Mesh) -> np.ndarray:
     """Return the face (m,) that each of the `triangles` is a part of, whatever the shape."""
     sizes = read_values(mesh.polygons, "loop_total", np.int32)
     return np.repeat(np.arange(len(sizes)), np.maximum(sizes - 2, 0))
+
+
+def read_selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Return the normals of the selected faces of a mesh in Edit Mode, as they are now.
+
+    Returns (n,3), object space, each as long as the area of its face.
+    """
+    faces = bmesh.from_edit_mesh(mesh).faces
+    found = [(face.normal * face.calc_area())[:] for face in faces if face.select]
+    return np.array(found, dtype=np.float64).reshape(-1, 3)
+
+
+def not_hidden(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
+    """Return those of some faces, by their numbers, that can be seen in Edit Mode."""
+    return faces[~read_values(mesh.polygons, "hide", bool)[faces]]
+
+
+def select_faces(mesh: bpy.types.Mesh, faces: np.ndarray) -> None:
+    """Select faces of a mesh in Edit Mode, by their numbers, besides what is selected."""
+    edited = bmesh.from_edit_mesh(mesh)
+    edited.faces.ensure_lookup_table()
+    for number in faces.tolist():
+        edited.faces[number].select_set(True)
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def read_evaluated_points(obj: bpy.types.Object) -> tuple[np.ndarray, int]:
+    """Read only the positions.
+
+    Returns `points`: (n,3) float32, object space; `corners`: int, number of corners of all faces.
+    Raises CubicCraftError: it has no surface.
+    """
+    with _evaluated_mesh(obj) as mesh:
+        return read_values(mesh.vertices, "co", width=3), len(mesh.loops)
+
+
+def read_evaluated(obj: bpy.types.Object) -> tuple[np.ndarray, np.ndarray]:
+    """Read the surface of an object of any kind that has one.
+
+    Returns `points`: (n,3) float32, object space; `triangles`: (m,3) int32. Raises CubicCraftError:
+    it has no surface.
+    """
+    with _evaluated_mesh(obj) as mesh:
+        points = read_values(mesh.vertices, "co", width=3)
+        if len(mesh.loops) == 3 * len(mesh.polygons):
+            return points, corner_vertices(mesh).reshape(-1, 3)  # much faster
+        mesh.calc_loop_triangles()
+        return points, read_values(mesh.loop_triangles, "vertices", np.int32, 3)
+
+
+@contextlib.contextmanager
+def _evaluated_mesh(obj):
+    try:
+        evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        mesh = evaluated.to_mesh()
+    except RuntimeError as error:
+        raise CubicCraftError(f'"{obj.name}" has no surface; pick another object') from error
+    assert mesh is not None
+    try:
+        yield mesh
+    finally:
+        evaluated.to_mesh_clear()

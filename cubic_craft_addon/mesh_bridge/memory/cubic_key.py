@@ -8,6 +8,7 @@ Basis, or transformed it with the whole mesh. For the latter, attributes hold it
 of Basis as we wrote them.
 """
 
+import hashlib
 from collections.abc import Callable
 
 import bpy
@@ -16,10 +17,8 @@ import numpy as np
 from ..access.arrays import read_key, write_key
 from ..access.attributes import KEY, add_attribute, our_attributes, read_attribute, remove_attribute
 from ..access.checks import mesh_of
-from ..access.fingerprint import fingerprint_of_values
-from ..access.note import read_note, write_note
+from ..access.note import fingerprint_of_values, read_note, write_note
 from .affine import fit
-from .offsets import offset_sums, same_offsets
 
 _NAME = "Cubic"
 _BASE = f"{KEY}.base"
@@ -155,3 +154,40 @@ def remove_keys(mesh: bpy.types.Mesh, keys: list[bpy.types.ShapeKey]) -> None:
         for obj, index in active.items():
             if index and index >= place:
                 obj.active_shape_key_index = index - 1
+
+
+_SUMS = 4
+_ROUNDING = 2.0**-24  # of float32, relative
+_MARGIN = 16.0  # the sums of many roundings spread like the square root of their number
+
+
+def offset_sums(points: np.ndarray, base: np.ndarray) -> list[float]:
+    """Sum up the offsets of a shape key from its base, each time with other signs.
+
+    Editing Basis shifts the other keys by the same, rounded to float32: their offsets stay, but not
+    to the bit, so a hash cannot tell. These sums stay nearly the same, and change when any single
+    point is edited.
+
+    `points`, `base`: (n,3) float32. Returns the number of vertices, the largest coordinate, and 4
+    sums in the unit of the coordinates.
+    """
+    offsets = np.ravel(points).astype(np.float64) - np.ravel(base)
+    largest = max(np.abs(points).max(initial=0.0), np.abs(base).max(initial=0.0))
+    sums = [float(np.where(signs, offsets, -offsets).sum()) for signs in _signs(offsets.size)]
+    return [len(points), float(largest), *sums]
+
+
+def same_offsets(one: list[float], other: list[float]) -> bool:
+    """Return whether two results of `offset_sums` differ by no more than rounding."""
+    if len(one) != len(other) or one[0] != other[0]:
+        return False
+    roundings = np.sqrt(max(3 * one[0], 1)) * _ROUNDING * max(one[1], other[1])
+    return bool(np.abs(np.subtract(one[2:], other[2:])).max(initial=0.0) <= _MARGIN * roundings)
+
+
+def _signs(size: int) -> np.ndarray:
+    """Return signs that are the same in all versions of Python and NumPy, as files rely on them."""
+    row = -(-size // 8)
+    noise = hashlib.shake_128(b"cubic craft").digest(_SUMS * row)
+    bits = np.unpackbits(np.frombuffer(noise, np.uint8)).reshape(_SUMS, 8 * row)
+    return bits[:, :size].astype(bool)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..access.attributes import FIRST, our_attributes, remove_attribute
 from ..access.note import read_note, write_note
-from ..access.rotations import matrices_from_quaternions, quaternions_from_matrices
+from ..access.rounded_for_storage import matrices_from_quaternions, quaternions_from_matrices
 from ..access.shapes import Shapes
 from .original import RESULT, Start, is_lost, original_shapes, recognize_result, starts_here
 from .stored import Stored

@@ -174,7 +174,6 @@ def _base(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def _finite(positions: np.ndarray, mesh: bpy.types.Mesh) -> np.ndarray:
-    """Return the positions if they are finite."""
     if not np.isfinite(positions).all():
         raise CubicCraftError(
             f'Mesh "{mesh.name}" has coordinates that are not finite: '

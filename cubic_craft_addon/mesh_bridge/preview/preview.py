@@ -23,9 +23,7 @@ from ..access.sharp_edges import is_smooth, let_edges_follow
 from ..memory.cubic_key import find_cubic_key
 from ..memory.original import Start, original_shapes
 from ..memory.strokes import read_strokes, with_strokes
-from .end import end_preview
-from .moved import take_along
-from .store import marked, store_live, write_live_part
+from .store import end_preview, marked, store_live, take_along, write_live_part
 
 
 class Preview:
@@ -124,7 +122,6 @@ class Preview:
         return True
 
     def _with_keys(self, mesh: bpy.types.Mesh, base: np.ndarray, matrices: np.ndarray) -> Shapes:
-        """Add all shape keys to the base to be shown."""
         original = self._original
         if original.reference is None:
             return Shapes(base, {}, None, {})
@@ -152,5 +149,4 @@ class Preview:
 
 
 def _key_names(mesh: bpy.types.Mesh) -> list[str]:
-    """List the names of the shape keys."""
     return mesh.shape_keys.key_blocks.keys() if mesh.shape_keys is not None else []

@@ -6,13 +6,14 @@ undo step, an autosave or a copy of the mesh made during a preview therefore inc
 needed to end the preview, and no Python object has to outlive it.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import replace
 from typing import Any
 
 import bpy
 import numpy as np
 
+from ....solver.errors import CubicCraftError
 from ..access.attributes import (
     LIVE,
     add_attribute,
@@ -20,10 +21,12 @@ from ..access.attributes import (
     read_attribute,
     remove_attribute,
 )
-from ..access.fingerprint import fingerprint_of_values
-from ..access.note import read_note, write_note
-from ..access.shapes import Shapes, carry
-from ..access.sharp_edges import has_following_edges
+from ..access.checks import is_linked
+from ..access.note import fingerprint_of_values, read_note, write_note
+from ..access.shapes import Shapes, carry, read_shapes, write_shapes
+from ..access.sharp_edges import has_following_edges, leave_edges, let_edges_follow
+from ..memory.affine import fit
+from .edit_mode import EditedMesh
 
 POSITION = f"{LIVE}.position"  # only where it is not equal to the base
 
@@ -139,3 +142,122 @@ def _known_keys(
         if points is not None:
             known[name] = points
     return known
+
+
+_MOST = 64  # shapes kept; Blender keeps 32 undo steps by default
+
+_shown: dict[str, np.ndarray] = {}
+"""the shape shown when a mesh was transformed, by fingerprint, the latest last"""
+
+
+def take_along(
+    mesh: bpy.types.Mesh, part: dict[str, Any], present: Shapes, shown: np.ndarray | None = None
+) -> dict[str, Any] | None:
+    """Transform the data stored under a preview as the artist has transformed the visible mesh.
+
+    Blender stores the undo step of an operator before it notifies handlers: with the transformed
+    shape, and the earlier note and attributes. Going back to it requires finding the transform
+    again, for which the note has only the fingerprint of the shape shown; so that is kept here.
+
+    `mesh`: with a preview on it, in Object Mode. `part`: the "live" part of its note. `present`:
+    the current shapes. `shown`: (n,3), the shape shown last, if known. Returns the "live" part that
+    is on the mesh now; None if not all vertices were moved alike, and nothing has changed.
+    """
+    known = _shown.get(part["fingerprint"], shown)
+    if known is None or len(known) != len(present.base):
+        return None
+    way = fit(known, present.base)
+    if way is None:
+        return None
+    _remember(known)
+    move_live(mesh, way.moved)
+    moved = marked(part, present)
+    write_live_part(mesh, moved)
+    return moved
+
+
+def _remember(shown: np.ndarray) -> None:
+    fingerprint = fingerprint_of_values(shown)
+    _shown[fingerprint] = _shown.pop(fingerprint, shown)
+    while len(_shown) > _MOST:
+        del _shown[next(iter(_shown))]
+
+
+_ended_in_edit_mode: dict[str, dict[str, Any]] = {}
+"""the "live" part of the note by the fingerprint of the shape shown
+
+Ended in Edit Mode, a preview is no longer in the note, but still in the mesh outside, and in the
+undo steps of Edit Mode: entering it pushes one with the preview still on. An undo to such a step,
+or out of Edit Mode, may bring all of the preview back but its part of the note. Like the undo
+steps, this lasts until Blender ends.
+"""
+
+
+def has_preview(mesh: bpy.types.Mesh | None) -> bool:
+    """Return whether a preview is on the mesh. It is cheap: it reads no positions."""
+    return isinstance(mesh, bpy.types.Mesh) and "live" in read_note(mesh)
+
+
+def end_preview(mesh: bpy.types.Mesh) -> bool:
+    """Restore all shapes from before the preview, bit for bit; also works in Edit Mode.
+
+    If the artist has edited the base since, that shape is kept. Edit Mode itself turns -0 into 0 in
+    shape keys, and moves the `position` attribute onto the reference key.
+
+    Returns whether there was a preview to end. Linked meshes are not changed.
+    """
+    if is_linked(mesh) or not (has_preview(mesh) or _may_be_undone(mesh)):
+        return False
+    edited = EditedMesh(mesh) if mesh.is_editmode else None
+    try:
+        present = edited.read_shapes() if edited else read_shapes(mesh)
+    except CubicCraftError:  # a script has left shape keys that do not fit: not our preview
+        present = None
+    part = read_note(mesh).get("live") or _part_of_undone(present)
+    if not part:
+        return False
+    if edited and part["fingerprint"]:
+        _ended_in_edit_mode[part["fingerprint"]] = part
+    read = edited.read_attribute if edited else lambda name: read_attribute(mesh, name, 3)
+    before = shapes_before(present, part, read) if present is not None else None
+    if before is None and present is not None and not edited:
+        moved = take_along(mesh, part, present)
+        if moved is not None:
+            part, before = moved, shapes_before(present, moved, read)
+    had_edges = part.get("has_edges", False)
+    if not edited:
+        let_edges_follow(mesh, had_edges)
+    elif has_following_edges(mesh) and not had_edges:
+        leave_edges(mesh)
+        edited.smooth_edges()
+    if before is not None:
+        write_live_part(mesh, marked(part, None))
+        if edited:
+            edited.write_shapes(before)
+        else:
+            write_shapes(mesh, before)
+    # First the note: without it, the rest of a preview does no harm.
+    drop_live_part(mesh)
+    remove_live_attributes(mesh)
+    return True
+
+
+def end_all_previews(except_meshes: Collection[bpy.types.Mesh] = ()) -> list[str]:
+    """End the preview on every mesh of the file except some.
+
+    Returns the names of the meshes that had one.
+    """
+    meshes = [mesh for mesh in bpy.data.meshes if mesh not in except_meshes]
+    return [mesh.name for mesh in meshes if end_preview(mesh)]
+
+
+def _may_be_undone(mesh: bpy.types.Mesh) -> bool:
+    """Return whether an undo may have brought back a preview without its note."""
+    return bool(_ended_in_edit_mode) and bool(our_attributes(mesh, (LIVE,)))
+
+
+def _part_of_undone(present: Shapes | None) -> dict[str, Any] | None:
+    """Find the part of the note by the current shape; None if we have not shown it."""
+    if present is None:
+        return None
+    return _ended_in_edit_mode.get(fingerprint_of_values(present.base))

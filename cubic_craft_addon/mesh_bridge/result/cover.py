@@ -14,7 +14,7 @@ import numpy as np
 from ....solver.errors import CubicCraftError
 from ..access.arrays import read_key, read_position
 from ..access.checks import mesh_of
-from ..access.evaluated import read_evaluated_points
+from ..access.triangulation import read_evaluated_points
 from ..memory.cubic_key import find_cubic_key
 
 REMEDY = "use Cubify What You See"

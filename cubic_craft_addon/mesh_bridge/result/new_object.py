@@ -1,17 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write a result to a copy of the object; the source does not change, bit for bit."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import bpy
 import numpy as np
 
-from ..access.any_mode import flush
-from ..access.attributes import check_names
+from ....solver.errors import CubicCraftError
+from ..access.any_mode import flush, passing_copy, remove_copy
+from ..access.arrays import mark_moved, write_position
+from ..access.attributes import check_names, our_attributes, remove_attribute
 from ..access.checks import check_local, mesh_of
-from ..access.note import check_note
+from ..access.note import NOTE, check_note, read_note
 from ..memory.original import Start
+from .restore import discard_original
 from .results import write_mesh
 
 
@@ -81,3 +85,152 @@ def select_instead(obj: bpy.types.Object, new: bpy.types.Object) -> None:
         return
     if is_free:
         bpy.context.view_layer.objects.active = new
+
+
+def plain_copy(obj: bpy.types.Object, positions: np.ndarray) -> bpy.types.Object:
+    """Copy an object and its mesh, and give the copy other positions.
+
+    It keeps UVs, materials, vertex groups and modifiers, and is in no scene yet.
+
+    `obj`: an object with a mesh, not in Edit Mode. `positions`: (n,3) float32, object space. Raises
+    CubicCraftError: a mesh that cannot be written; no copy is left then.
+    """
+    new_mesh, new = mesh_of(obj).copy(), obj.copy()
+    assert new_mesh is not None and new is not None
+    new.data = new_mesh  # first, so that shape keys are removed from the copy alone
+    try:
+        _strip(new, new_mesh)
+        write_position(new_mesh, positions)
+        mark_moved(new_mesh)
+    except BaseException:
+        remove_copy(new)
+        raise
+    return new
+
+
+def _strip(new: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
+    """Remove the shape keys and all data of ours, which do not fit fewer vertices."""
+    if mesh.shape_keys is not None:
+        name = mesh.shape_keys.name
+        new.shape_key_clear()
+        left = bpy.data.shape_keys.get((name, None))
+        if left is not None:  # Blender counts a user too many for copied shape keys
+            bpy.data.batch_remove((left,))
+    new.active_shape_key_index = 0
+    new.show_only_shape_key = False
+    discard_original(mesh)
+
+
+KINDS = ("MESH", "CURVE", "SURFACE", "FONT", "META")
+"""types of objects with a visible mesh"""
+
+_PLAIN_PARENTS = ("OBJECT", "BONE", "VERTEX", "VERTEX_3")
+
+
+def make_seen(obj: bpy.types.Object) -> bpy.types.Object:
+    """Return a new object with the visible mesh of another, in no scene yet.
+
+    It has the materials, UVs, vertex groups and attributes of the evaluated mesh and the transform
+    of the source, but no modifiers and shape keys, which are already applied.
+
+    Raises CubicCraftError: the object has no visible faces; no new object is left then.
+    """
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    try:
+        mesh = bpy.data.meshes.new_from_object(
+            obj.evaluated_get(depsgraph), preserve_all_data_layers=True, depsgraph=depsgraph
+        )
+    except RuntimeError as error:
+        raise CubicCraftError(f'"{obj.name}" cannot be evaluated as a mesh') from error
+    if not mesh.polygons:
+        bpy.data.meshes.remove(mesh)
+        raise CubicCraftError(
+            f'"{obj.name}" shows no faces of its own: give a curve a bevel, and realize instances'
+        )
+    _forget_ours(mesh)
+    mesh.name = f"{obj.data.name} Cubic" if obj.data else f"{obj.name} Cubic"
+    new = _copy(obj, mesh) if obj.type == "MESH" else _stand_in(obj, mesh)
+    new.name = f"{obj.name} Cubic"
+    return new
+
+
+@contextmanager
+def as_seen(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
+    """Provide an object made by `make_seen` to read from.
+
+    Raises CubicCraftError: as `make_seen`; what is raised while it is read names the object itself.
+    """
+    with passing_copy(make_seen(obj), obj) as new:
+        yield new
+
+
+def write_seen(
+    new: bpy.types.Object,
+    source: bpy.types.Object | None,
+    positions: np.ndarray,
+    rotations: np.ndarray,
+    prepare: Callable[[bpy.types.Object], None],
+    run: dict[str, Any] | None,
+) -> bpy.types.Object:
+    """Write a result to an object made by `make_seen`, and show it beside the source.
+
+    `new`, `source`: the source is None if it was deleted in the meantime. `positions`, `rotations`,
+    `prepare`, `run`: as for `write_new_object`. Raises CubicCraftError: as `write_mesh`. After any
+    exception, there is no new object.
+    """
+    try:
+        write_mesh(mesh_of(new), positions, rotations, run)
+        if source is None:
+            bpy.context.scene.collection.objects.link(new)
+            prepare(new)
+            return new
+        link_beside(source, new)
+        prepare(new)
+        select_instead(source, new)
+    except BaseException:
+        remove_copy(new)
+        raise
+    return new
+
+
+def move_seen(new: bpy.types.Object, positions: np.ndarray) -> None:
+    """Move the vertices of an object made by `make_seen` to positions (n,3), for good."""
+    mesh = mesh_of(new)
+    write_position(mesh, positions)
+    mark_moved(mesh)
+
+
+def show_seen(new: bpy.types.Object, source: bpy.types.Object) -> None:
+    """Show an object made by `make_seen` beside the source."""
+    link_beside(source, new)
+    select_instead(source, new)
+
+
+def _forget_ours(mesh: bpy.types.Mesh) -> None:
+    """Remove evaluated data of an earlier result, which belongs to another mesh."""
+    for name in our_attributes(mesh):
+        remove_attribute(mesh, name)
+    if read_note(mesh):
+        del mesh[NOTE]
+
+
+def _copy(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> bpy.types.Object:
+    new = obj.copy()
+    assert new is not None
+    new.data = mesh
+    new.modifiers.clear()
+    new.active_shape_key_index = 0
+    new.show_only_shape_key = False
+    if new.parent_type not in _PLAIN_PARENTS:  # also deforms, which is already in the mesh
+        new.parent_type = "OBJECT"
+    return new
+
+
+def _stand_in(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> bpy.types.Object:
+    new = bpy.data.objects.new(obj.name, mesh)
+    new.parent = obj.parent
+    if obj.parent_type in _PLAIN_PARENTS:
+        new.parent_type, new.parent_bone = obj.parent_type, obj.parent_bone
+    new.matrix_parent_inverse = obj.matrix_parent_inverse
+    new.matrix_world = obj.matrix_world
+    return new

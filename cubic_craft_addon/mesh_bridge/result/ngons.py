@@ -10,13 +10,12 @@ import bmesh
 import bpy
 import numpy as np
 
+from ..access.any_mode import remove_copy
 from ..access.arrays import write_position
 from ..access.checks import mesh_of
-from ..access.copies import remove_copy
 from ..access.triangulation import faces_of_triangles
-from .new_object import link_beside, select_instead
-from .plain_copy import plain_copy
-from .reshaped import result_positions
+from .new_object import link_beside, plain_copy, select_instead
+from .results import result_positions
 from .transferred_keys import key_offsets, transfer_keys
 
 _BENT = math.radians(10.0)

@@ -12,7 +12,7 @@ from ..access.sharp_edges import forget_edges, leave_edges
 from ..memory.cubic_key import find_cubic_key, remove_cubic_key
 from ..memory.first_original import drop_first, first_shapes, has_first
 from ..memory.original import drop_stored, has_original, has_stored, original_shapes
-from ..preview.end import end_preview
+from ..preview.store import end_preview
 from .rollback import all_or_nothing
 
 

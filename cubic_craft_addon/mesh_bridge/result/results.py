@@ -11,29 +11,35 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..access.arrays import loose_vertices, mark_moved
+from ....solver.errors import CubicCraftError
+from ..access.arrays import loose_vertices, mark_moved, read_key
 from ..access.attributes import check_names
 from ..access.checks import check_relative_keys, check_writable, mesh_of
-from ..access.rotations import matrices_from_quaternions
+from ..access.note import fingerprint_of_values, is_run, read_note
 from ..access.rounded_for_storage import (
     carry_finite,
     matrices_for_storage,
+    matrices_from_quaternions,
     rotations_for_storage,
     rounded_for_storage,
 )
-from ..access.shapes import Shapes, write_shapes
+from ..access.shapes import Shapes, read_shapes, write_shapes
 from ..memory.cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from ..memory.first_original import first_kept
 from ..memory.last_run import note_run
 from ..memory.original import (
+    RESULT,
     Start,
     drop_stored,
     original_positions,
     original_shapes,
+    read_positions,
+    recognize_result,
     store_original,
 )
+from ..memory.recognition import Recognized
 from ..memory.strokes import read_strokes, with_strokes
-from ..preview.end import end_preview
+from ..preview.store import end_preview
 from .rollback import all_or_nothing
 
 
@@ -168,3 +174,98 @@ def _write_key(
         note_run(mesh, run)
         mark_moved(mesh)
         finish()
+
+
+def result_positions(obj: bpy.types.Object) -> np.ndarray:
+    """Read the present shape of a result: of the shape key "Cubic", or of the mesh.
+
+    `obj`: an object with a mesh that shows no preview. Returns (n,3) float32, object space. Raises
+    CubicCraftError: there is no result, or none whose original is known; Edit Mode, or coordinates
+    that are not finite.
+    """
+    mesh = mesh_of(obj)
+    key = find_cubic_key(mesh)
+    if key is not None:
+        return read_key(mesh, key)
+    positions = read_positions(mesh)
+    _recognized(mesh, obj.name)
+    return positions
+
+
+def write_reshaped(obj: bpy.types.Object, positions: np.ndarray) -> None:
+    """Write a changed shape of a result to where `result_positions` reads it.
+
+    Shape keys follow: they keep their offsets. Edits by hand become strokes in the result. The
+    original and the note of the run stay what they are.
+
+    `obj`: an object with a mesh that has a result, in Object Mode. `positions`: (n,3), object
+    space; ignored for vertices in no face. Raises CubicCraftError: as `result_positions`; wrong
+    number of vertices, values that are not finite, or a mesh that cannot be written. The mesh is
+    then unchanged.
+    """
+    mesh = mesh_of(obj)
+    check_writable(mesh, obj.name)
+    check_names(mesh)
+    end_preview(mesh)
+    run = read_note(mesh).get("run")
+    if find_cubic_key(mesh) is not None:
+        reshape_key(obj, positions, run)
+        return
+    recognized = _recognized(mesh, obj.name)
+    present, original = read_shapes(mesh), original_shapes(mesh, "ORIGINAL")
+    quaternions = RESULT.rotations(mesh, recognized)
+    strokes = read_strokes(mesh, "EDITS")
+    positions = rounded_for_storage(mesh, positions, present.base, loose_vertices(mesh))
+    unturned = np.broadcast_to(np.eye(3), (len(positions), 3, 3))
+    written = carry_finite(mesh, present, positions, unturned)
+    with all_or_nothing(mesh):
+        drop_stored(mesh)
+        store_original(mesh, original, written, quaternions, strokes)
+        note_run(mesh, run)
+        write_shapes(mesh, written)
+
+
+def _recognized(mesh: bpy.types.Mesh, name: str) -> Recognized:
+    found = recognize_result(mesh)
+    if found is None:
+        raise CubicCraftError(
+            f'"{name}" has no result whose original is known: cubify it again, which starts from '
+            "its current shape"
+        )
+    return found
+
+
+def noted_outcome(mesh: bpy.types.Mesh) -> Any:
+    """Return the outcome that `Preview.show` has noted on the mesh, None if there is none."""
+    return read_note(mesh).get("live", {}).get("outcome")
+
+
+def keep_preview(mesh: bpy.types.Mesh, run: dict[str, Any], start: Start) -> None:
+    """Write the shape that the preview shows as a result.
+
+    `mesh`: with a preview on it, in Object Mode. `run`: the note of the run (see `note`). `start`:
+    what the run has started from if the mesh was edited by hand since the last result. Raises
+    CubicCraftError: the shape is not that of the preview, the run is not one, or a mesh that cannot
+    be written. The mesh is then unchanged.
+    """
+    check_writable(mesh, mesh.name)
+    check_names(mesh)
+    shown = read_shapes(mesh)
+    part = read_note(mesh).get("live")
+    if part is None or part["fingerprint"] != fingerprint_of_values(shown.base):
+        raise CubicCraftError(f'Mesh "{mesh.name}" does not have the shape of its preview')
+    if not is_run(run):
+        raise CubicCraftError(f'Mesh "{mesh.name}" has a preview of an unknown run')
+    unturned = np.tile(np.array((1, 0, 0, 0), np.float32), (len(mesh.vertices), 1))
+    with all_or_nothing(mesh):
+        end_preview(mesh)
+        cubic_key = find_cubic_key(mesh)
+        original = original_shapes(mesh, start)
+        strokes = read_strokes(mesh, start)
+        keep_first = first_kept(mesh, start, original)
+        drop_stored(mesh)
+        keep_first()
+        store_original(mesh, original, shown, unturned, strokes)
+        note_run(mesh, run)
+        write_shapes(mesh, shown)
+        remove_cubic_key(mesh, cubic_key)

@@ -63,8 +63,6 @@ def _has_faces_of(mesh, other):
 
 
 class _State:
-    """The state that is restored."""
-
     def __init__(self, mesh: bpy.types.Mesh) -> None:
         self.mesh = mesh
         self.shapes = read_shapes(mesh)

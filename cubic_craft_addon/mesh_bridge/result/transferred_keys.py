@@ -113,7 +113,6 @@ def shares_of(places: np.ndarray, corners: np.ndarray) -> np.ndarray:
 
 
 def _copy_animation(source: bpy.types.Key, target: Any) -> None:
-    """Let the keyframes and drivers of shape keys move those of the same names."""
     animation: Any = source.animation_data
     if animation is None:
         return

@@ -22,7 +22,7 @@ def angles_now(part):
 
     def measure(obj):
         bpy.context.view_layer.update()
-        return part("angles.kept").angles_now(obj)
+        return part("angles.overlay").angles_now(obj)
 
     return measure
 
@@ -180,9 +180,9 @@ def test_the_angles_follow_live(angles_now, begin, one_phase):
 def test_angles_of_few_objects_are_kept(angles_now, part):
     for name in "ABCD":
         angles_now(add_monkey(name))
-    assert len(part("angles.kept")._known._known) == part("screen.kept").MOST
+    assert len(part("angles.overlay")._known._known) == part("screen.kept").MOST
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    assert part("angles.kept")._known.is_empty
+    assert part("angles.overlay")._known.is_empty
 
 
 def test_what_is_drawn(drawn):
@@ -234,19 +234,19 @@ def test_the_legend_is_beside_the_sidebar_and_above_a_header(part):
 
 
 def test_the_overlay_leaves_nothing_behind(extension, angles_now, part):
-    overlay, angles = part("angles.overlay"), part("angles.kept")
+    overlay, kept = part("angles.overlay"), part("screen.kept")
     angles_now(add_monkey())
     assert len(overlay._handles) == 2
 
     def handlers():
         every = [getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers)]
         listening = [handler for some in every if isinstance(some, list) for handler in some]
-        return [h for h in listening if h.__module__ == angles.__name__]
+        return [h for h in listening if h.__module__ == kept.__name__]
 
     count = len(handlers())
-    assert count == len(angles._HANDLERS)
+    assert count == len(kept._HANDLERS)
     bpy.ops.preferences.addon_disable(module=extension.__name__)
-    assert not overlay._handles and angles._known.is_empty and not handlers()
+    assert not overlay._handles and overlay._known.is_empty and not handlers()
     assert not hasattr(bpy.types.WindowManager, overlay.PROPERTY)
     bpy.ops.preferences.addon_enable(module=extension.__name__)
     assert hasattr(bpy.types.WindowManager, overlay.PROPERTY) and len(handlers()) == count

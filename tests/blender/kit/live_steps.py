@@ -73,8 +73,7 @@ def confirm(live, session):
 def check_gone(live):
     assert live.current() is None
     handlers = importlib.import_module(f"{live.__name__}.handlers")
-    wake = importlib.import_module(f"{live.__name__}.wake")
-    assert not handlers.is_installed() and wake._listener is None
+    assert not handlers.is_installed()
     for name, handler in handlers._HANDLERS:
         assert handler not in getattr(bpy.app.handlers, name)
     session = live._session

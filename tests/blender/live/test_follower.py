@@ -215,7 +215,7 @@ def look_along(direction, distance, is_perspective):
     "direction", [(0, 1, 0), (-1, 0, 0), (0, -1, 0), (1, 2, -1), (-1, 0.3, -2)]
 )
 def test_neither_hides_the_other_from_the_view(part, monkeypatch, direction, is_perspective):
-    beside = part("live.beside")
+    beside = part("live.follower")
     view = look_along(direction, 6.0, is_perspective)
     monkeypatch.setattr(beside, "_view", lambda: view)
     bpy.ops.mesh.primitive_cube_add()

@@ -23,7 +23,7 @@ def no_healing(extension):
 @pytest.fixture(autouse=True)
 def no_memory(extension, monkeypatch):
     """Forget the previews that other tests have ended in Edit Mode, of the same shapes."""
-    name = f"{extension.__name__}.cubic_craft_addon.mesh_bridge.preview.end"
+    name = f"{extension.__name__}.cubic_craft_addon.mesh_bridge.preview.store"
     monkeypatch.setattr(importlib.import_module(name), "_ended_in_edit_mode", {})
 
 

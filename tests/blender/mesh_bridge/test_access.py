@@ -12,7 +12,7 @@ from rich_mesh import cubic_like, set_position
 
 @pytest.fixture
 def rotations(bridge):
-    return importlib.import_module(f"{bridge.__name__}.access.rotations")
+    return importlib.import_module(f"{bridge.__name__}.access.rounded_for_storage")
 
 
 def test_there_and_back(rotations):

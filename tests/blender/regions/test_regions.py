@@ -137,7 +137,7 @@ def test_shares_never_add_up_to_more_than_all(extension):
         add_region(obj, name)
     addon = f"{extension.__name__}.cubic_craft_addon"
     settings = importlib.import_module(f"{addon}.settings.properties").settings_of(obj, handles=())
-    shares = importlib.import_module(f"{addon}.regions.shares").region_shares(obj, settings.regions)
+    shares = importlib.import_module(f"{addon}.regions.region").region_shares(obj, settings.regions)
     assert shares is not None
     np.testing.assert_allclose(shares, np.tile([0.0, 0.5, 0.3, 0.2], (len(shares), 1)), atol=1e-6)
 
@@ -182,7 +182,7 @@ def test_facets_of_each_region_are_made_planar():
 
 
 def test_the_angles_are_those_to_the_form_of_the_region(part):
-    angles_now = part("angles.kept").angles_now
+    angles_now = part("angles.overlay").angles_now
     ball = add_ball()
     add_group(ball, "Top", upper)
     add_region(ball, "Top", form="OCTAHEDRON", cubeness=2.0)

@@ -72,7 +72,7 @@ def test_in_other_modes_the_way_out_takes_the_place_of_a_message(part, problem, 
 def test_every_button_of_the_panel_is_an_operator_that_exists(extension, module, count):
     panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.{module}")
     text = Path(panel.__file__).read_text(encoding="utf-8")
-    names = set(re.findall(r'\.operator\(\s*(?:(?:row|layout),\s*)?"([^"]+)"', text))
+    names = set(re.findall(r'\boperator\(\s*(?:(?:row|layout),\s*)?"([^"]+)"', text))
     assert len(names) >= count
     for name in names:
         room, verb = name.split(".")

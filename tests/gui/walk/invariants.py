@@ -20,24 +20,14 @@ _ALWAYS = (
     ("load_post", "_keep"),
     ("load_post", "_start_anew"),
     ("depsgraph_update_post", "_follow_updates"),
-    ("depsgraph_update_post", "_on_update"),
-    *((name, "_forget") for name in ("undo_post", "redo_post", "load_post")),
-    # the angles
-    ("depsgraph_update_post", "_on_update"),
-    ("frame_change_post", "_on_update"),
-    *((name, "forget") for name in ("undo_post", "redo_post", "load_post")),
+    # what is kept between redraws
+    *((name, "_on_update") for name in ("depsgraph_update_post", "frame_change_post")),
+    *((name, "_on_other_data") for name in ("undo_post", "redo_post")),
+    ("load_post", "_forget"),
     # forms of objects
     ("depsgraph_update_post", "_on_update"),
     *((name, "_forget") for name in ("frame_change_post", "undo_post", "redo_post")),
     *((name, "_forget") for name in ("load_pre", "load_post")),
-    # marks of handles
-    ("depsgraph_update_post", "_on_update"),
-    ("frame_change_post", "_on_update"),
-    *((name, "_on_other_data") for name in ("undo_post", "redo_post", "load_post")),
-    # what is worn
-    ("depsgraph_update_post", "_on_update"),
-    *((name, "_on_change") for name in ("frame_change_post", "undo_post", "redo_post")),
-    ("load_post", "_on_load"),
 )
 _IN_LIVE = (
     ("undo_post", "_on_undo"),

@@ -11,8 +11,8 @@ import pytest
 
 from solver import Run, run, stylize
 from solver.console import interruption
+from solver.console.method_options import FORMS
 from solver.console.obj_lines import logical_lines, vertex_of
-from solver.console.options import FORMS
 from solver.method import SETTINGS
 from solver.styles import form_names, forms
 
