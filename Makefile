@@ -9,7 +9,8 @@ PYTHON ?= $(or $(call find_python,3.13),$(PYTHON311))
 PYTHON311 ?= $(call find_python,3.11)
 VENV := .venv
 PY := $(VENV)/bin/python
-PIP := -m pip install --quiet --disable-pip-version-check
+# What is not imported need not be compiled: that takes most of the time.
+PIP := -m pip install --quiet --disable-pip-version-check --no-compile
 # Whole files go to as many processes as there are cores, in the order given: the longest are named
 # first. Not more than four, as each Blender takes its memory. A process that crashes ends the run: with
 # another one in its place, --dist loadfile may wait for ever.
@@ -72,14 +73,15 @@ test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in e
 test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on the versions of Blender and Python, in the oldest that we support
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 2 --ignore tests/blender/hostile \
 		--ignore tests/blender/mesh_bridge/test_bridge_faults.py \
-		$(patsubst %,--ignore-glob "*/test_%.py",assembly cages docs_examples edited faults flatten_facets \
-		floor form_from_selection form_settings handle_own_pose handle_reach handles keyed_settings leaks \
-		live_inputs live_poses live_transforms normal_capture orientation other_blenders posed_anew process \
-		refusals regions rigged_limbs scenes select_crossing symmetry up_to_date worn) \
+		$(patsubst %,--ignore-glob "*/test_%.py",assembly cages docs_examples edited examples faults \
+		flatten_facets flatten_ngons floor form_from_selection form_settings handle_own_pose handle_reach \
+		handles keyed_settings leaks live_crisp live_inputs live_poses live_transforms normal_capture \
+		orientation other_blenders posed_anew process refusals regions rigged_limbs scenes \
+		select_crossing symmetry up_to_date worn) \
 		--ignore tests/blender/send tests/blender \
 		$(patsubst %,tests/scripts/test_headless_%.py,bake picture round_trip seen)
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 2 tests/blender/send
-	$(VENV)-oldest/bin/python $(PYTEST) --few 1 -m "not thorough" -k "not [numpy" $(WITH_KERNELS)
+	$(VENV)-oldest/bin/python $(PYTEST) --few 1 -m "not thorough" -k "not [numpy" tests/solver/backends
 
 $(VENV)-oldest/.done: requirements/*.txt
 	@test -n "$(PYTHON311)" || { echo "no Python 3.11 found; set it: make PYTHON311=path"; exit 1; }
@@ -111,7 +113,7 @@ test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/rel
 # Of each test one case, as what differs is the device; without comparisons of whole runs that take
 # long, and that test_device_arrays.py makes of the device, and without what the host decides.
 ON_HOST := acceleration or nothing_crosses or coarse_start or sequence or from_below or symmetry or limbs \
-	or links or vertex_order or cancelled or at_a_time
+	or links or vertex_order or cancelled or at_a_time or turning or nothing_turns or components
 test-gpu: setup $(ZIP) ## What runs on a GPU, on Mesa's on the processor; GPU=own for your own
 	GPU="$(GPU)" tests/on_gpu.sh $(GPU_OPTIONS) sh -c '$(PY) $(PYTEST) --few 1 -k "(gpu or device_arrays) and not ($(ON_HOST))" \
 		--deselect solver/global_step/test_multigrid.py::test_it_ends_where_the_factorisation_does \
