@@ -16,6 +16,7 @@ def bending(empty_file):
     return bending_ball()
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("count", [FRAMES, 40])
 def test_the_process_goes_from_the_original_to_the_result_at_even_speed(
     extension, bending, tmp_path, count

@@ -140,6 +140,7 @@ def test_confirming_does_not_wait_for_a_pause_and_keeps_the_place(live, follow):
     check_same_as_new_object(obj, follower_of(obj))
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT", "SCULPT"])
 def test_cancelling_removes_the_follower_and_keeps_the_strokes(live, follow, mode):
     obj = add_monkey()
@@ -326,6 +327,7 @@ def check_the_timeline_is_followed(live, follow, obj):
     check_same_as_new_object(obj, follower_of(obj))
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize(
     ("owner", "name", "values"),
     [
@@ -377,6 +379,7 @@ def test_painting_the_map_is_followed(live, follow):
     check_same_as_new_object(obj, follower_of(obj))
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("moved_by", ["keys", "strip", "driver", "constraint"])
 def test_it_stands_beside_an_original_that_something_else_moves(live, follow, moved_by):
     obj = add_monkey()
