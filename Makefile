@@ -9,8 +9,9 @@ PYTHON ?= $(or $(call find_python,3.13),$(PYTHON311))
 PYTHON311 ?= $(call find_python,3.11)
 VENV := .venv
 PY := $(VENV)/bin/python
-# What is not imported need not be compiled: that takes most of the time.
-PIP := -m pip install --quiet --disable-pip-version-check --no-compile
+PIP := -m pip install --quiet --disable-pip-version-check
+# To compile what nobody imports takes most of the time. Not with Taichi: compiled later, it warns.
+QUICK_PIP := $(PIP) --no-compile
 # Whole files go to as many processes as there are cores, in the order given: the longest are named
 # first. Not more than four, as each Blender takes its memory. A process that crashes ends the run: with
 # another one in its place, --dist loadfile may wait for ever.
@@ -141,7 +142,7 @@ test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that 
 
 $(VENV)-bare-%/.done: requirements/blender-%.txt
 	$(if $(filter oldest,$*),$(PYTHON311),$(PYTHON)) -m venv --clear $(VENV)-bare-$*
-	$(VENV)-bare-$*/bin/python $(PIP) -r $<
+	$(VENV)-bare-$*/bin/python $(QUICK_PIP) -r $<
 	@touch $@
 
 lint: setup ## Style and formatting
@@ -178,13 +179,13 @@ wheel: $(VENV)-wheel/.done ## The solver as a wheel for pip, without Blender, in
 
 $(VENV)-wheel/.done: requirements/wheel.txt
 	$(PYTHON) -m venv --clear $(VENV)-wheel
-	$(VENV)-wheel/bin/python $(PIP) -r $<
+	$(VENV)-wheel/bin/python $(QUICK_PIP) -r $<
 	@touch $@
 
 # In a new environment: its name, its Python, its requirements, the extra of the wheel, the tests.
 define test_library
 $(2) -m venv --clear $(VENV)-library-$(1)
-$(VENV)-library-$(1)/bin/python $(PIP) -r requirements/library-$(3).txt "$$(echo dist/cubic_craft-*.whl)$(4)"
+$(VENV)-library-$(1)/bin/python $(if $(4),$(PIP),$(QUICK_PIP)) -r requirements/library-$(3).txt "$$(echo dist/cubic_craft-*.whl)$(4)"
 $(VENV)-library-$(1)/bin/python -m pip check
 $(VENV)-library-$(1)/bin/python $(PYTEST) $(5)
 endef
@@ -224,7 +225,7 @@ docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; 
 
 $(VENV)-docs/.done: requirements/docs.txt
 	$(PYTHON) -m venv --clear $(VENV)-docs
-	$(VENV)-docs/bin/python $(PIP) -r requirements/docs.txt
+	$(VENV)-docs/bin/python $(QUICK_PIP) -r requirements/docs.txt
 	@touch $@
 
 .PHONY: figures

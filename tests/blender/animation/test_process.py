@@ -13,7 +13,7 @@ from scene import select  # isort: skip
 
 @pytest.fixture
 def bending(empty_file):
-    return bending_ball()
+    return bending_ball(4)
 
 
 @pytest.mark.thorough(1)

@@ -5,7 +5,15 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from live_steps import add_monkey, bits, check_gone, confirm, follower_of, tick_to_rest
+from live_steps import (
+    add_monkey,
+    bits,
+    check_gone,
+    check_same_as_cubify,
+    confirm,
+    follower_of,
+    tick_to_rest,
+)
 from scene import edit_mode, select
 from snapshot import differences, snapshot_mesh
 
@@ -314,6 +322,14 @@ def test_what_modifiers_show_is_followed(live, follow, change):
     assert bits(follower_of(obj)) != shown and session._timer is None
     confirm(live, session)
     check_same_as_new_object(obj, follower_of(obj))
+
+
+def test_with_modifiers_another_place_for_the_result_is_another_mesh(live, begin):
+    obj = add_box()
+    session = tick_to_rest(begin(obj, result="NEW_OBJECT", with_modifiers=True))
+    live.live_properties().result = "MESH"
+    confirm(live, tick_to_rest(session))
+    check_same_as_cubify(obj)
 
 
 def check_the_timeline_is_followed(live, follow, obj):

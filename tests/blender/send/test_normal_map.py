@@ -152,6 +152,19 @@ def test_edges_of_levels_of_detail_lie_between_sides(triangles):
     assert lengths[(angles > 5) & (angles < 25)].sum() < 0.29 * lengths.sum()
 
 
+@pytest.mark.parametrize(("is_cut", "angle", "is_hard"), [(0, 40, 0), (1, 40, 1), (1, 20, 0)])
+def test_edges_between_islands_are_hard_at_smaller_angles(part, is_cut, angle, is_hard):
+    rise = np.tan(np.radians(angle))
+    mesh = bpy.data.meshes.new("Bent")
+    places = [(0, 0, 0), (0, 1, 0), (-1, 0, 0), (1, 0, rise)]
+    mesh.from_pydata(places, [], [(0, 1, 2), (1, 0, 3)])
+    corners = np.array([(0, 0), (0, 1), (-1, 0), (0, 1), (0, 0), (1, 0)], np.float32)
+    corners[3:, 0] += 2.0 * is_cut
+    mesh.uv_layers.new(name="UVMap").uv.foreach_set("vector", corners.ravel())
+    part("send.low_poly").set_hard_edges(mesh, "UVMap")
+    assert sum(edge.use_edge_sharp for edge in mesh.edges) == is_hard
+
+
 def test_the_material_shows_the_map(part):
     obj = add_rough()
     skin = bpy.data.materials.new("Skin")
