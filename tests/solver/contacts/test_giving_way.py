@@ -66,7 +66,7 @@ def strands(count=COUNT):
 @pytest.mark.thorough(1)  # that strands are cards is tested below
 @pytest.mark.parametrize("make, crispness", [(hair, 0.9), (strands, 0.9), (hair, 0.0)])
 def test_a_head_becomes_as_cubic_as_without_keep_apart(make, crispness):
-    head = uv_sphere(32, 16)
+    head = uv_sphere(24, 12)
     V, F = joined(head, make())
     n, results = len(head[0]), []
     for keep_apart in (False, True):
