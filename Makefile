@@ -10,7 +10,8 @@ PYTHON311 ?= $(call find_python,3.11)
 VENV := .venv
 PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
-# To compile what nobody imports takes most of the time. Not with Taichi: compiled later, it warns.
+# To compile what nobody imports takes most of the time. Not where tests read what is said beside
+# Taichi: of what is compiled later, Python 3.13 tells the warnings.
 QUICK_PIP := $(PIP) --no-compile
 # Whole files go to as many processes as there are cores, in the order given: the longest are named
 # first. Not more than four, as each Blender takes its memory. A process that crashes ends the run: with
@@ -87,7 +88,7 @@ test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on the versions of Blen
 $(VENV)-oldest/.done: requirements/*.txt
 	@test -n "$(PYTHON311)" || { echo "no Python 3.11 found; set it: make PYTHON311=path"; exit 1; }
 	$(PYTHON311) -m venv --clear $(VENV)-oldest
-	$(VENV)-oldest/bin/python $(PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
+	$(VENV)-oldest/bin/python $(QUICK_PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
 	@touch $@
 
 WITH_KERNELS := $(addprefix tests/solver/,backends coarse_to_fine test_reference_meshes.py test_stylize.py)
@@ -99,7 +100,7 @@ test-quadrants: $(VENV)-quadrants/.done ## The solver with Quadrants in place of
 $(VENV)-quadrants/.done: requirements/*.txt
 	@test -n "$(PYTHON)" || { echo "no Python 3.13 or 3.11 found; set it: make PYTHON=path"; exit 1; }
 	$(PYTHON) -m venv --clear $(VENV)-quadrants
-	$(VENV)-quadrants/bin/python $(PIP) -r requirements/dev.txt \
+	$(VENV)-quadrants/bin/python $(QUICK_PIP) -r requirements/dev.txt \
 		"$$(sed -n 's/^\(quadrants==[^;]*\);.*/\1/p' requirements/solver.txt)"
 	$(VENV)-quadrants/bin/python -m pip uninstall --quiet --yes taichi
 	@touch $@
