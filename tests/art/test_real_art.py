@@ -115,6 +115,7 @@ def test_a_coarse_mesh_becomes_cubic(name, bound):
     assert outcome_of(name).angle_ratio() <= bound
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("name", ["painted", "painted_soft"])
 def test_what_is_not_painted_stays(name):
     outcome = outcome_of(name)

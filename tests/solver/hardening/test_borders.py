@@ -97,6 +97,7 @@ def sphere(segments):
     return V, [*F[:segments].tolist(), *quads.tolist(), *F[-segments:].tolist()]
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize(
     ("mesh", "share"),
     [(sphere(16), 0.97), (sphere(24), 0.97), (sphere(32), 0.97), (torus(), 0.8)],

@@ -25,7 +25,7 @@ KEPT = {"proxy": ProxyOptions(), "keep_rotation": True, "crispness": 0.0}
 Q = shapes.rotation(30, 20, 40)
 
 
-@pytest.mark.thorough(6)
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("turn", [0, 21, 63])
 @pytest.mark.parametrize("size", [(1, 1, 1), (6, 1, 0.5), (2, 1, 0.02)])
 def test_a_box_does_not_move_whatever_its_triangulation(size, turn, device):
