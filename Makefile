@@ -10,6 +10,9 @@ PYTHON311 ?= $(call find_python,3.11)
 VENV := .venv
 PY := $(VENV)/bin/python
 PIP := -m pip install --quiet --disable-pip-version-check
+# To compile what nobody imports takes most of the time. Not where tests read what is said beside
+# Taichi: of what is compiled later, Python 3.13 tells the warnings.
+QUICK_PIP := $(PIP) --no-compile
 # Whole files go to as many processes as there are cores, in the order given: the longest are named
 # first. Not more than four, as each Blender takes its memory. A process that crashes ends the run: with
 # another one in its place, --dist loadfile may wait for ever.
@@ -72,19 +75,20 @@ test-hostile: setup $(ZIP) ## Broken meshes, EXAMPLES=50000 of them, others in e
 test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on the versions of Blender and Python, in the oldest that we support
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 2 --ignore tests/blender/hostile \
 		--ignore tests/blender/mesh_bridge/test_bridge_faults.py \
-		$(patsubst %,--ignore-glob "*/test_%.py",assembly cages docs_examples edited faults flatten_facets \
-		floor form_from_selection form_settings handle_own_pose handle_reach handles keyed_settings leaks \
-		live_inputs live_poses live_transforms normal_capture orientation other_blenders posed_anew process \
-		refusals regions rigged_limbs scenes select_crossing symmetry up_to_date worn) \
+		$(patsubst %,--ignore-glob "*/test_%.py",assembly cages docs_examples edited examples faults \
+		flatten_facets flatten_ngons floor form_from_selection form_settings handle_own_pose handle_reach \
+		handles keyed_settings leaks live_crisp live_inputs live_poses live_transforms normal_capture \
+		orientation other_blenders posed_anew process refusals regions rigged_limbs scenes show_angles \
+		select_crossing symmetry up_to_date worn) \
 		--ignore tests/blender/send tests/blender \
 		$(patsubst %,tests/scripts/test_headless_%.py,bake picture round_trip seen)
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 2 tests/blender/send
-	$(VENV)-oldest/bin/python $(PYTEST) --few 1 -m "not thorough" -k "not [numpy" $(WITH_KERNELS)
+	$(VENV)-oldest/bin/python $(PYTEST) --few 1 -m "not thorough" -k "not [numpy" tests/solver/backends
 
 $(VENV)-oldest/.done: requirements/*.txt
 	@test -n "$(PYTHON311)" || { echo "no Python 3.11 found; set it: make PYTHON311=path"; exit 1; }
 	$(PYTHON311) -m venv --clear $(VENV)-oldest
-	$(VENV)-oldest/bin/python $(PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
+	$(VENV)-oldest/bin/python $(QUICK_PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
 	@touch $@
 
 WITH_KERNELS := $(addprefix tests/solver/,backends coarse_to_fine test_reference_meshes.py test_stylize.py)
@@ -96,7 +100,7 @@ test-quadrants: $(VENV)-quadrants/.done ## The solver with Quadrants in place of
 $(VENV)-quadrants/.done: requirements/*.txt
 	@test -n "$(PYTHON)" || { echo "no Python 3.13 or 3.11 found; set it: make PYTHON=path"; exit 1; }
 	$(PYTHON) -m venv --clear $(VENV)-quadrants
-	$(VENV)-quadrants/bin/python $(PIP) -r requirements/dev.txt \
+	$(VENV)-quadrants/bin/python $(QUICK_PIP) -r requirements/dev.txt \
 		"$$(sed -n 's/^\(quadrants==[^;]*\);.*/\1/p' requirements/solver.txt)"
 	$(VENV)-quadrants/bin/python -m pip uninstall --quiet --yes taichi
 	@touch $@
@@ -111,7 +115,7 @@ test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/rel
 # Of each test one case, as what differs is the device; without comparisons of whole runs that take
 # long, and that test_device_arrays.py makes of the device, and without what the host decides.
 ON_HOST := acceleration or nothing_crosses or coarse_start or sequence or from_below or symmetry or limbs \
-	or links or vertex_order or cancelled or at_a_time
+	or links or vertex_order or cancelled or at_a_time or turning or nothing_turns or components
 test-gpu: setup $(ZIP) ## What runs on a GPU, on Mesa's on the processor; GPU=own for your own
 	GPU="$(GPU)" tests/on_gpu.sh $(GPU_OPTIONS) sh -c '$(PY) $(PYTEST) --few 1 -k "(gpu or device_arrays) and not ($(ON_HOST))" \
 		--deselect solver/global_step/test_multigrid.py::test_it_ends_where_the_factorisation_does \
@@ -139,7 +143,7 @@ test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that 
 
 $(VENV)-bare-%/.done: requirements/blender-%.txt
 	$(if $(filter oldest,$*),$(PYTHON311),$(PYTHON)) -m venv --clear $(VENV)-bare-$*
-	$(VENV)-bare-$*/bin/python $(PIP) -r $<
+	$(VENV)-bare-$*/bin/python $(QUICK_PIP) -r $<
 	@touch $@
 
 lint: setup ## Style and formatting
@@ -176,13 +180,13 @@ wheel: $(VENV)-wheel/.done ## The solver as a wheel for pip, without Blender, in
 
 $(VENV)-wheel/.done: requirements/wheel.txt
 	$(PYTHON) -m venv --clear $(VENV)-wheel
-	$(VENV)-wheel/bin/python $(PIP) -r $<
+	$(VENV)-wheel/bin/python $(QUICK_PIP) -r $<
 	@touch $@
 
 # In a new environment: its name, its Python, its requirements, the extra of the wheel, the tests.
 define test_library
 $(2) -m venv --clear $(VENV)-library-$(1)
-$(VENV)-library-$(1)/bin/python $(PIP) -r requirements/library-$(3).txt "$$(echo dist/cubic_craft-*.whl)$(4)"
+$(VENV)-library-$(1)/bin/python $(if $(4),$(PIP),$(QUICK_PIP)) -r requirements/library-$(3).txt "$$(echo dist/cubic_craft-*.whl)$(4)"
 $(VENV)-library-$(1)/bin/python -m pip check
 $(VENV)-library-$(1)/bin/python $(PYTEST) $(5)
 endef
@@ -222,7 +226,7 @@ docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; 
 
 $(VENV)-docs/.done: requirements/docs.txt
 	$(PYTHON) -m venv --clear $(VENV)-docs
-	$(VENV)-docs/bin/python $(PIP) -r requirements/docs.txt
+	$(VENV)-docs/bin/python $(QUICK_PIP) -r requirements/docs.txt
 	@touch $@
 
 .PHONY: figures

@@ -76,6 +76,7 @@ def test_clothes_stay_outside_the_body(cubeness):
     assert after <= 0.005
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("name", DENSE)
 def test_a_dense_mesh_becomes_nearly_as_cubic_as_in_the_paper(name):
     paper = outcome_of(name, is_paper=True)
@@ -114,6 +115,7 @@ def test_a_coarse_mesh_becomes_cubic(name, bound):
     assert outcome_of(name).angle_ratio() <= bound
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("name", ["painted", "painted_soft"])
 def test_what_is_not_painted_stays(name):
     outcome = outcome_of(name)
@@ -139,17 +141,6 @@ def test_the_whole_neither_turns_nor_drifts(name):
 def test_an_evenly_meshed_character_does_not_turn_however_it_is_measured(name):
     outcome = outcome_of(name)
     assert measures.turn(outcome.V, outcome.U, outcome.F) <= 1
-
-
-@pytest.mark.parametrize("name", [*DENSE, "cup", "pinched", "text"])
-def test_no_more_triangles_cross_than_in_the_paper(name):
-    assert outcome_of(name).crossings()[1] <= outcome_of(name, is_paper=True).crossings()[1]
-
-
-@pytest.mark.parametrize("name", TOUCHING)
-def test_few_triangles_of_touching_parts_cross_that_did_not_before(name):
-    rest, after = outcome_of(name).crossings()
-    assert after <= rest + 0.01 * len(outcome_of(name).F)
 
 
 @pytest.mark.thorough(1)

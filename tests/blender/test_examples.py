@@ -20,7 +20,7 @@ KEPT = os.environ.get("CUBIC_CRAFT_PICTURES")
 QUICK = {"WIDTH": 160, "HEIGHT": 80, "SAMPLES": 1, "LEVELS": 1, "VOXEL": 0.09}
 
 
-@pytest.mark.thorough(2)  # not the forms, whose kernels take long to compile
+@pytest.mark.thorough(1)  # not the forms, whose kernels take long to compile
 @pytest.mark.parametrize("name", NAMES)
 def test_example_makes_its_picture(name, tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(EXAMPLES))

@@ -131,7 +131,7 @@ def problem_of(place, error_class, call, path, folder, run, before, done):
     return ""
 
 
-@pytest.mark.thorough(3)
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_any_function_may_fail(extension, tmp_path, name, capfd):
     before_it, run = SCENARIOS[name]

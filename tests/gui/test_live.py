@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """Live: watch, drag the slider, take back, confirm as one step that equals Cubify; cancel."""
 
 import bpy

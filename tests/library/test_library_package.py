@@ -160,10 +160,14 @@ PUBLIC = [
 ]
 
 
+def test_no_docstring_imports_the_solver():
+    assert not [name for name in PUBLIC if "from solver" in getattr(cubic_craft, name).__doc__]
+
+
+@pytest.mark.thorough(2)  # tests/docs runs all of them, with the names of the source
 @pytest.mark.parametrize("name", PUBLIC)
 def test_the_example_of_a_docstring_runs_as_it_is_installed(name):
     text = inspect.getdoc(getattr(cubic_craft, name))
-    assert "from solver" not in text
     runner = doctest.DocTestRunner()
     runner.run(doctest.DocTestParser().get_doctest(text, {}, name, None, None))
     failed, tried = runner.summarize()

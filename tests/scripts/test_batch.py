@@ -84,32 +84,26 @@ def test_pictures_of_several_files_at_several_cubenesses(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="it forbids such names")
-def test_files_may_have_any_name(tmp_path):
+def test_files_of_any_name_get_the_handles_and_options_and_say_what_is_left_out(tmp_path):
     names = ['[red]it\'s "$HOME" `ls`;#', "-lead [b] line\nbreak Größe 立方体 🧊"]
-    folder = tmp_path / "-odd [red] folder"
+    folder, out = tmp_path / "-odd [red] folder", "-out 立"
     folder.mkdir()
     for name in names:
-        (folder / f"{name}.obj").write_text(CUBE)
-    process = headless(".", "--output-folder=-out 立", "--jobs", 2, *MESHES, cwd=folder)
-    assert process.returncode == 0, process.stderr
-    assert files_in(folder / "-out 立") == sorted(f"{name}.obj" for name in names)
-    rows = [line for line in process.stderr.splitlines() if line[1:7] == " of 2,"]
-    assert len(rows) == len(names), "each has one line"
-
-
-def test_every_file_gets_the_handles_and_options_and_says_what_is_left_out(tmp_path):
-    for name in ("one.obj", "two.obj"):
-        (tmp_path / name).write_text(CUBE + "o dust\nv 5 5 5\nv 6 6 6\nl 9 10\n")
+        (folder / f"{name}.obj").write_text(CUBE + "o dust\nv 5 5 5\nv 6 6 6\nl 9 10\n")
     handles = [{"vertices": [0, 1, 2, 3]}, {"vertices": [4, 5], "translate": [0, 0.5, 0]}]
     (tmp_path / "h.json").write_text(json.dumps(handles))
-    options = ("--handles", "h.json", "--cubeness", 0, "--orientation", "-0.00001", "-90.5", "0")
-    process = batch("one.obj", "two.obj", *options, cwd=tmp_path)
+    options = ("--handles", tmp_path / "h.json", "--cubeness", 0)
+    options += ("--orientation", "-0.00001", "-90.5", "0", "--jobs", 2)
+    process = headless(".", f"--output-folder={out}", *options, *MESHES, cwd=folder)
     assert process.returncode == 0, process.stderr
-    for name in ("one", "two"):
-        lines = (tmp_path / "out" / f"{name}.obj").read_text().splitlines()
+    assert files_in(folder / out) == sorted(f"{name}.obj" for name in names)
+    rows = [line for line in process.stderr.splitlines() if line[1:7] == " of 2,"]
+    assert len(rows) == len(names), "each has one line"
+    assert process.stderr.count('"dust" is left out') == 2
+    original = [line.split()[1:4] for line in CUBE.splitlines() if line[:2] == "v "]
+    for name in names:
+        lines = (folder / out / f"{name}.obj").read_text().splitlines()
         V = np.array([line.split()[1:4] for line in lines if line[:2] == "v "], float)
-        original = [line.split()[1:4] for line in CUBE.splitlines() if line[:2] == "v "]
         moved = V[:8] - np.array(original, float)
         np.testing.assert_allclose(moved[:4], 0.0, atol=1e-6)
         np.testing.assert_allclose(moved[4:6], [[0, 0.5, 0]] * 2, atol=1e-6)
-        assert f'{name}.obj: "dust" is left out' in process.stderr

@@ -66,7 +66,7 @@ def folder(tmp_path):
     return tmp_path
 
 
-@pytest.mark.thorough(12)
+@pytest.mark.thorough(8)
 @pytest.mark.parametrize("case", REFUSALS)
 def test_refusal(folder, case):
     arguments, words = REFUSALS[case]

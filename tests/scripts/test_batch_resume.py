@@ -43,17 +43,14 @@ def run(folder, *arguments):
 
 
 def test_only_what_has_changed_is_done_again(folder):
-    (folder / "meshes" / "c.obj").write_text(CUBE)
-    names = [*NAMES, "c.obj"]
-    assert run(folder) == dict.fromkeys(names, "done")
+    assert run(folder) == dict.fromkeys(NAMES, "done")
     written = (folder / "out" / "a.obj").stat().st_mtime_ns
     os.utime(folder / "meshes" / "a.obj", (0, 0))  # copied, but the same
     (folder / "out" / "b.obj").write_text("cut off")
-    (folder / "out" / "c.obj").unlink()
-    assert run(folder) == {"a.obj": "kept", "b.obj": "done", "c.obj": "done"}
+    assert run(folder) == {"a.obj": "kept", "b.obj": "done"}
     assert (folder / "out" / "a.obj").stat().st_mtime_ns == written
     (folder / "meshes" / "a.obj").write_text(CUBE.replace("v 1 1 1", "v 1 1 2"))
-    assert run(folder) == {"a.obj": "done", "b.obj": "kept", "c.obj": "kept"}
+    assert run(folder) == {"a.obj": "done", "b.obj": "kept"}
 
 
 @pytest.mark.thorough(1)

@@ -34,7 +34,7 @@ def run(name, folder):
     return way(CORPUS / "files" / name, *ARGUMENTS, cwd=folder)
 
 
-@pytest.mark.thorough(10)
+@pytest.mark.thorough(6)
 @pytest.mark.parametrize("name", DONE)
 def test_what_can_be_cubified_is(name, tmp_path):
     process = run(name, tmp_path)
@@ -46,7 +46,7 @@ def test_what_can_be_cubified_is(name, tmp_path):
     assert np.isfinite(V).all()
 
 
-@pytest.mark.thorough(10)
+@pytest.mark.thorough(7)
 @pytest.mark.parametrize("name", REFUSED)
 def test_what_cannot_is_refused_in_one_line(name, tmp_path):
     process = run(name, tmp_path)

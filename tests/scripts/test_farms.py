@@ -7,8 +7,8 @@ import subprocess
 import sys
 
 import pytest
-from batch_kit import CUBE, MESHES, QUICK, batch
-from headless import PATIENCE, SCRIPT
+from batch_kit import CUBE, MESHES, QUICK
+from headless import PATIENCE, SCRIPT, headless_ok
 
 FARMS = SCRIPT.parents[1] / "examples" / "farms"
 BLENDER = f"""#!/bin/sh
@@ -42,13 +42,14 @@ def run(*command, cwd, **variables):
     return process.returncode, process.stdout + process.stderr
 
 
-def test_a_task_of_an_array_job_does_what_the_batch_does(folder):
+def test_a_task_of_an_array_job_does_what_the_command_does(folder):
     variables = {"BLENDER": str(folder / "blender"), "SLURM_ARRAY_TASK_ID": "2"}
     arguments = ("in", "jobs", *MESHES)
     code, words = run("sh", FARMS / "array_job.sh", *arguments, cwd=folder, **variables)
     assert code == 0, words
-    batch("in/it's $HOME.obj", cwd=folder)
-    done, expected = (folder / name / "it's $HOME.obj" for name in ("jobs", "out"))
+    outputs = ("--no-render", "--save-mesh", "expected.obj")
+    headless_ok("in/it's $HOME.obj", *QUICK, *outputs, cwd=folder)
+    done, expected = folder / "jobs" / "it's $HOME.obj", folder / "expected.obj"
     assert done.read_bytes() == expected.read_bytes()
 
 

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Results for game engines and printers: what is in the files, and what happens to the vertices."""
 
-import json
 import struct
 import zlib
 
 import numpy as np
 import pytest
 from batch_kit import QUICK, batch, files_in, statuses
+from glb import Glb
 from headless import headless_ok, read_files
 
 BOX = """mtllib first.mtl
@@ -35,22 +35,6 @@ def png():
     return PNG + head + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
 
 
-def in_glb(path):
-    """Return the JSON of a .glb, and a function that gives an accessor of floats as an array."""
-    data = path.read_bytes()
-    size = struct.unpack_from("<I", data, 12)[0]
-    found = json.loads(data[20 : 20 + size])
-
-    def read(number):
-        accessor = found["accessors"][number]
-        view = found["bufferViews"][accessor["bufferView"]]
-        width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[accessor["type"]]
-        begin, count = 28 + size + view.get("byteOffset", 0), accessor["count"] * width
-        return np.frombuffer(data, np.float32, count, begin).reshape(-1, width)
-
-    return found, read
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """Folder with a textured box, and its results in all these formats."""
@@ -74,11 +58,11 @@ def points(folder):
 
 
 def test_a_glb_has_the_texture_and_the_number_of_each_vertex(folder, points):
-    found, read = in_glb(folder / "box.glb")
-    (primitive,) = found["meshes"][0]["primitives"]
-    numbers = read(primitive["attributes"]["_VERTEX"]).ravel().astype(int)
+    glb = Glb(folder / "box.glb")
+    found, (primitive,) = glb.json, glb.json["meshes"][0]["primitives"]
+    numbers = glb.array(primitive["attributes"]["_VERTEX"]).astype(int)
     assert len(numbers) > len(points), "corners are split at the seams"
-    moved = read(primitive["attributes"]["POSITION"])
+    moved = glb.array(primitive["attributes"]["POSITION"])
     half = 0.5**0.5  # a quarter turn about X, as Blender reads an .obj
     np.testing.assert_allclose(found["nodes"][0]["rotation"], [half, 0, 0, half], atol=1e-6)
     np.testing.assert_allclose(moved[:, [0, 2, 1]] * [1, -1, 1], points[numbers], atol=1e-6)
@@ -134,7 +118,7 @@ def test_levels_of_detail_have_normal_maps_and_are_done_once(folder, tmp_path):
     assert files_in(tmp_path / "out") == names
     triangles = []
     for name in names:
-        found, _ = in_glb(tmp_path / "out" / name)
+        found = Glb(tmp_path / "out" / name).json
         (primitive,) = found["meshes"][0]["primitives"]
         triangles.append(found["accessors"][primitive["indices"]]["count"] // 3)
         if name != names[0]:
@@ -146,7 +130,7 @@ def test_objects_that_share_a_mesh_share_its_levels(inputs, tmp_path):
     """One of the two has a modifier, which its low-poly mesh has in it."""
     arguments = ("--no-render", "--save-mesh", "two.glb", "--low-poly", 50)
     headless_ok(inputs / "awkward.blend", *QUICK, *arguments, cwd=tmp_path)
-    found, _ = in_glb(tmp_path / "two_lod1.glb")
+    found = Glb(tmp_path / "two_lod1.glb").json
     places = {node["name"]: (node["mesh"], "translation" in node) for node in found["nodes"]}
     assert places == {"awkward Low": (0, True), "twin Low": (0, False)}
     (mesh,) = found["meshes"]

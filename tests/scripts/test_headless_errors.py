@@ -141,7 +141,7 @@ def folder(tmp_path, inputs):
     return tmp_path
 
 
-@pytest.mark.thorough(20)
+@pytest.mark.thorough(14)
 @pytest.mark.parametrize("case", [*OPTIONS, *CONTENT])
 def test_refusal(folder, case):
     arguments, words = (OPTIONS | CONTENT)[case]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Posing by ``--handles``: what is held is where the file says, whatever selects it."""
+"""Handles on the command line: what is held, where it goes, and what is refused; and regions."""
 
 import json
 from pathlib import Path
@@ -170,3 +170,24 @@ def test_the_example_for_the_monkey_lifts_its_ears(tmp_path):
     ears, chin = np.abs(rest[:, 0]) > 1.1, rest[:, 2] < -0.6
     assert (posed[ears, 2] - rest[ears, 2]).min() > 0.2
     np.testing.assert_allclose(posed[chin], rest[chin], atol=1e-6)
+
+
+def with_regions(inputs, folder, name, *options):
+    """Return the result for an object of a .blend with the vertex group "pinned"."""
+    given = (inputs / "awkward.blend", "--object", "twin", "--cubeness", 0.5, "--refine", "off")
+    files = ("--save-mesh", f"{name}.blend", "--report", f"{name}.json")
+    headless_ok(*given, *FAST[2:], *files, *options, cwd=folder)
+    [content] = read_files(folder / f"{name}.blend", folder=folder)
+    return content["twin"][0]
+
+
+def test_a_region_has_its_own_form(inputs, tmp_path):
+    plain = with_regions(inputs, tmp_path, "plain")
+    same = with_regions(inputs, tmp_path, "same", "--region", "pinned:cube:0.5")
+    other = with_regions(inputs, tmp_path, "other", "--region", "pinned:prism3:2")
+    np.testing.assert_array_equal(same, plain)
+    assert np.abs(other - plain).max() > 1e-3 * np.ptp(plain, axis=0).max()
+    six = with_regions(inputs, tmp_path, "six", "--region", "pinned:prism:2")
+    assert np.abs(other - six).max() > 1e-3 * np.ptp(plain, axis=0).max()
+    report = json.loads((tmp_path / "other.json").read_text(encoding="utf-8"))
+    assert report["settings"]["region"] == ["pinned:prism3:2"]

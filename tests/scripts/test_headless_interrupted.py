@@ -58,25 +58,15 @@ def stop(process, number):
     assert errors.splitlines()[-1] == f"headless_render.py: {CALM[number]}"
 
 
-# Each kind of file and each signal once: what removes the temporary file knows of neither.
+# Each kind of file and each signal: what removes the temporary file knows of neither.
 @pytest.mark.thorough(1)
 @pytest.mark.parametrize(
     ("suffix", "number"),
-    zip(["obj", "ply", "blend", "usdc", "abc"], itertools.cycle(SIGNALS), strict=False),
+    zip(["obj", "ply", "blend", "usdc", "abc", "png"], itertools.cycle(SIGNALS), strict=False),
 )
-def test_stopped_before_a_mesh_is_in_its_place(tmp_path, suffix, number):
-    check_stopped(tmp_path, number, f"result.{suffix}", "--no-render", "--save-mesh")
-
-
-@pytest.mark.thorough(1)
-@pytest.mark.parametrize("number", SIGNALS[1:] + SIGNALS[:1])
-def test_stopped_before_a_picture_is_in_its_place(tmp_path, number):
-    check_stopped(tmp_path, number, "picture.png", *SMALL, "--output")
-
-
-def check_stopped(tmp_path, number, name, *arguments):
-    """Stop a run while there is a temporary file, and run again."""
-    target = tmp_path / name
+def test_stopped_before_a_file_is_in_its_place(tmp_path, suffix, number):
+    arguments = (*SMALL, "--output") if suffix == "png" else ("--no-render", "--save-mesh")
+    target = tmp_path / f"result.{suffix}"
     target.write_bytes(OLD)
     process = start(tmp_path, *arguments, target.name, script=("-c", HELD))
     wait_until(process, lambda: temporaries(tmp_path))
@@ -120,6 +110,7 @@ def test_the_temporary_file_of_a_running_process_is_left_alone(tmp_path):
     assert process.returncode == 0 and not temporaries(tmp_path)
 
 
+@pytest.mark.thorough
 def test_killed_at_any_moment(tmp_path):
     """Kill runs at moments spread evenly from the start to the end."""
     count = int(os.environ.get("CUBIC_CRAFT_KILLS", "2"))

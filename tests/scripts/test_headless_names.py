@@ -26,7 +26,7 @@ QUICK = ("--device", "numpy", "--max-iterations", "2", "--samples", "1", "--reso
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="it forbids such names")
 
 
-@pytest.mark.thorough(5)
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("suffix", ["obj", "blend"])
 def test_every_file_may_have_any_name(tmp_path, name, suffix):

@@ -20,3 +20,10 @@ def angle_to_axes(V, F):
     areas, normals = triangle_areas_and_normals(V, F)
     largest = np.minimum(np.abs(normals).max(axis=1), 1.0)
     return np.degrees(np.average(np.arccos(largest), weights=areas))
+
+
+def squareness(V):
+    """Return how much farther the corners are from the middle than the sides; sqrt(2) at most."""
+    radius, angle = np.linalg.norm(V[:, :2], axis=1), np.arctan2(V[:, 1], V[:, 0])
+    quarter = np.abs((angle + np.pi / 4) % (np.pi / 2) - np.pi / 4)
+    return radius[quarter > np.pi / 4 - 0.1].max() / radius[quarter < 0.1].max()

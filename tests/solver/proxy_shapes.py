@@ -61,6 +61,24 @@ def revolved(outline, around, step=np.inf):
     return V, np.concatenate([np.stack(first, axis=1), np.stack(second, axis=1)])
 
 
+def torus(count=48, around=12, thickness=0.25):
+    """Return a torus of radius 1 about the vertical axis, in quads (m,4)."""
+    i, j = (x.ravel() for x in np.indices((count, around)))
+    a, b = 2.0 * np.pi * i / count, 2.0 * np.pi * j / around
+    far = 1.0 + thickness * np.cos(b)
+    V = np.stack([far * np.cos(a), far * np.sin(a), thickness * np.sin(b)], axis=1)
+    ahead, up = (i + 1) % count * around, (j + 1) % around
+    return V, np.stack([i * around + j, ahead + j, ahead + up, i * around + up], axis=1)
+
+
+def house():
+    """Return a house of 10 vertices whose roof leans to two sides, in polygons."""
+    V = np.array([[x, y, z] for x in (-1.0, 1) for y in (-1.5, 1.5) for z in (0.0, 1.5)])
+    V = np.concatenate([V, [[0.0, -1.5, 2.5], [0.0, 1.5, 2.5]]])
+    walls = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [0, 4, 5, 8, 1], [2, 3, 9, 7, 6]]
+    return V, [*walls, [1, 8, 9, 3], [5, 7, 9, 8]]
+
+
 def joined(*meshes):
     """Return several meshes as one."""
     starts = np.cumsum([0, *(len(V) for V, _ in meshes)])

@@ -35,6 +35,16 @@ def sheet(n=12):
     return V, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
 
 
+def squares(n):
+    """Return a box of side 1 around the origin, with n x n squares on each side."""
+    V, F = sheet(n + 1)
+    flat = V * [1.0, 1.0, 0.0] - [0.5, 0.5, -0.5]
+    turns = [rotation(), *(rotation(x=x) for x in (90, 180, -90)), rotation(y=90), rotation(y=-90)]
+    points = np.round(np.concatenate([flat @ R.T for R in turns]), 9) + 0.0
+    V, group = np.unique(points, axis=0, return_inverse=True)
+    return V, np.concatenate([group.ravel()[F + number * len(flat)] for number in range(6)])
+
+
 def two_blobs():
     """Return two components of different size, with a loose vertex between them."""
     (V, F), (W, G) = blob(2), skewed_blob()

@@ -12,7 +12,7 @@ from solver.acceleration import Momentum
 SHAPES = {"blob": shapes.blob(2), "sphere": shapes.sphere(), "skewed_blob": shapes.skewed_blob()}
 
 
-@pytest.mark.thorough(2)
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("cubeness", [0.2, 0.8])
 def test_it_ends_where_the_plain_iteration_does_in_fewer_iterations(name, cubeness, device):

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from shapes import blob, extent, rotation, sheet
+from shapes import blob, extent, rotation, squares
 
 from solver import PAPER, CubicCraftError, flatten_facets, stylize
 from solver.mesh.nearest_on_planes import nearest_on_planes
@@ -14,13 +14,7 @@ ANGLE = np.radians(20.0)
 
 def box(n=8, noise=0.0, seed=0):
     """Return a box of side 1 with n x n squares on each side, and vertices moved at random."""
-    V, F = sheet(n + 1)
-    flat = V * [1.0, 1.0, 0.0] - [0.5, 0.5, -0.5]
-    turns = [rotation(), rotation(x=90), rotation(x=180), rotation(x=-90)]
-    turns += [rotation(y=90), rotation(y=-90)]
-    points = np.round(np.concatenate([flat @ R.T for R in turns]), 9) + 0.0
-    V, group = np.unique(points, axis=0, return_inverse=True)
-    F = np.concatenate([group.ravel()[F + number * len(flat)] for number in range(6)])
+    V, F = squares(n)
     return V + np.random.default_rng(seed).uniform(-noise, noise, V.shape), F
 
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from shapes import blob, extent, rotation, sheet
+from shapes import blob, extent, rotation, sheet, squares
 
 from solver import PAPER, low_poly, stylize
 from solver.facets.joining import crowded, joined, without_needless
@@ -27,12 +27,7 @@ def off_plane(V, loop):
 
 def rounded_box(n=16, seed=0):
     """Return a box of side 1 with rounded edges and noise."""
-    V, F = sheet(n + 1)
-    flat = V * [1.0, 1.0, 0.0] - [0.5, 0.5, -0.5]
-    turns = [rotation(), *(rotation(x=x) for x in (90, 180, -90)), rotation(y=90), rotation(y=-90)]
-    points = np.round(np.concatenate([flat @ R.T for R in turns]), 9) + 0.0
-    V, group = np.unique(points, axis=0, return_inverse=True)
-    F = np.concatenate([group.ravel()[F + number * len(flat)] for number in range(6)])
+    V, F = squares(n)
     inner = np.clip(V, -0.45, 0.45)
     away = V - inner
     V = inner + 0.05 * away / np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-9)

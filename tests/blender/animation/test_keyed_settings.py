@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A frame is solved with the values that all settings have in it, not with those of the first."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -185,6 +188,20 @@ def check(part, objects, name):
     makes, off = (float(np.sqrt(((x - wanted) ** 2).sum(axis=1).mean())) for x in (other, keyed))
     assert makes > 0.002, "the setting has no effect here"
     assert off < NEAR * makes
+
+
+def test_what_a_frame_depends_on_is_a_part_of_its_moment(part, empty_file):
+    read, obj = part("read.member"), add_monkey()
+    member = read.read_member(obj, part("settings.properties").settings_of(obj))
+    shape = read.ShapeRead(member.shape.original + 1.0, member.shape.triangles)
+    others = (
+        {"settings": replace(member.settings, cubeness=0.9)},
+        {"shape": shape},
+        {"alone": SimpleNamespace(key="another")},
+        {"bones": SimpleNamespace(pose="bent")},
+    )
+    moments = [part("animation.animated")._moment(replace(member, **o)) for o in ({}, *others)]
+    assert len(set(map(repr, moments))) == len(moments)
 
 
 def test_animated_settings_of_the_active_object_count_for_all(extension, bending, tmp_path):

@@ -13,9 +13,10 @@ from scene import select  # isort: skip
 
 @pytest.fixture
 def bending(empty_file):
-    return bending_ball()
+    return bending_ball(4)
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("count", [FRAMES, 40])
 def test_the_process_goes_from_the_original_to_the_result_at_even_speed(
     extension, bending, tmp_path, count

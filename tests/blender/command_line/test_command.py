@@ -98,10 +98,3 @@ def test_nothing_in_a_file_runs_whatever_the_preferences_allow(call, tmp_path):
     done = call("driver.blend", *QUICK, "--no-render", "--save-mesh", "b.obj")
     assert done.returncode == 0, done.stderr
     assert not (tmp_path / "ran").exists()
-
-
-def test_help_names_it_and_shows_all(call):
-    whole = call("--help-all")
-    assert whole.returncode == 0
-    assert "usage: blender -c cubic_craft [INPUT ...] [options]" in whole.stdout
-    assert "--tolerance" in whole.stdout

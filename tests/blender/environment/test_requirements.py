@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Without SciPy the extension can be enabled, and says what is missing instead of failing."""
+"""Without SciPy the extension can be enabled, and says what is missing; it never goes online."""
 
 import os
 import subprocess
@@ -14,6 +14,7 @@ CODE = """
     sys.path[:0] = {folders}
     for name in {missing}:
         sys.modules[name] = None  # makes every import of it fail
+    {first}
     import bpy
     bpy.ops.preferences.addon_enable(module="bl_ext.user_default.cubic_craft")
     bpy.ops.mesh.primitive_monkey_add()
@@ -25,12 +26,15 @@ CODE = """
 QUICK = "max_iterations=3, refine='OFF', keep_apart=False"
 
 
-def run(missing, then, folders=()):
-    """Run code in a fresh bpy that has the installed extension, with folders of other packages."""
-    then = textwrap.indent(textwrap.dedent(then), "    ").strip()
-    code = textwrap.dedent(CODE.format(missing=missing, then=then, folders=list(folders)))
+def run(missing, then, folders=(), first=""):
+    """Run code in a fresh bpy that has the installed extension, with folders of other packages.
+
+    `first`: what is run before bpy is imported.
+    """
+    first, then = (textwrap.indent(textwrap.dedent(x), "    ").strip() for x in (first, then))
+    code = CODE.format(missing=missing, first=first, then=then, folders=list(folders))
     return subprocess.run(
-        [sys.executable, "-c", code],
+        [sys.executable, "-c", textwrap.dedent(code)],
         capture_output=True,
         text=True,
         timeout=300,
@@ -96,3 +100,29 @@ def test_without_an_engine_and_cholespy_numpy_and_scipy_take_over():
 def test_enabling_imports_neither_scipy_nor_an_engine():
     done = run([], "print({'scipy', 'taichi', 'quadrants', 'cholespy'} & set(sys.modules))")
     assert done.stdout.splitlines()[-1] == "set()"
+
+
+OFFLINE = """
+    import socket
+    def refuse(*_, **__):
+        raise AssertionError("went online")
+    for name in ("socket", "create_connection", "getaddrinfo", "socketpair"):
+        setattr(socket, name, refuse)
+"""
+
+
+def test_nothing_goes_online():
+    """In a whole session, from enabling to Restore, in which opening a socket is an error."""
+    done = run(
+        [],
+        f"""
+        for device in ("AUTO", "NUMPY"):
+            assert bpy.ops.cubic_craft.cubify({QUICK}, device=device) == {{"FINISHED"}}
+        assert bpy.ops.cubic_craft.auto_orient() == {{"FINISHED"}}
+        assert bpy.ops.cubic_craft.restore() == {{"FINISHED"}}
+        print("done without")
+        """,
+        first=OFFLINE,
+    )
+    assert done.returncode == 0 and "done without" in done.stdout, done.stderr
+    assert "went online" not in done.stderr

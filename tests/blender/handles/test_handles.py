@@ -236,3 +236,15 @@ def test_apply_counts_for_all_objects_that_share_the_mesh(posed):
     bpy.ops.cubic_craft.apply()
     assert [handle.matrix for handle in posed(obj)] == [IDENTITY] * 2
     assert posed(twin) == posed(obj)
+
+
+def test_apply_leaves_another_pose_of_an_object_that_shares_the_mesh():
+    obj, _, _ = add_posable()
+    raised, higher = (Matrix.Translation((0.0, 0.0, z)) for z in (0.5, 1.0))
+    pin(obj, RIGHT).pose = raised
+    twin = add_copy(obj, is_linked=True)
+    twin.cubic_craft.handles[0].pose = higher
+    select(obj)
+    cubify()
+    bpy.ops.cubic_craft.apply()
+    assert [one.cubic_craft.handles[0].pose for one in (obj, twin)] == [Matrix(), higher]

@@ -12,9 +12,9 @@ from scene import select  # isort: skip
 FRAMES = 8
 
 
-def ball_with_bones():
-    """Add a ball of 642 vertices with the bones Low and High, and return it and the armature."""
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
+def ball_with_bones(subdivisions=3):
+    """Add a ball, of 162 vertices, with the bones Low and High, and return it and the armature."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=subdivisions)
     ball = bpy.context.object
     ball.name = "Ball"
     armature = bpy.data.armatures.new("Rig")
@@ -39,12 +39,12 @@ def ball_with_bones():
     return ball, rig
 
 
-def bending_ball():
+def bending_ball(subdivisions=3):
     """Add the ball with keyframes that bend it within the frames of the scene, and return it.
 
     It is solved as it is: on a finer copy each frame takes several times as long.
     """
-    ball, rig = ball_with_bones()
+    ball, rig = ball_with_bones(subdivisions)
     ball.cubic_craft.refine = "OFF"
     bone = rig.pose.bones["High"]
     for frame, angle in ((1, 0.0), (FRAMES, 0.8)):

@@ -17,11 +17,11 @@ def add_solid(kind, name="Form", **where):
     return bpy.context.object
 
 
-def share_facing(obj, normals, angle=10.0):
-    """Return the share of an object's surface that faces one of the normals."""
+def share_facing(obj, normals, angle=10.0, where=slice(None)):
+    """Return the share of an object's surface, or of some faces, that faces one of the normals."""
     mesh = obj.data
     areas, found = np.empty(len(mesh.polygons)), np.empty((len(mesh.polygons), 3))
     mesh.polygons.foreach_get("area", areas)
     mesh.polygons.foreach_get("normal", found.ravel())
     near = (found @ np.asarray(normals).T).max(axis=1) > np.cos(np.radians(angle))
-    return areas[near].sum() / areas.sum()
+    return (areas * near)[where].sum() / areas[where].sum()

@@ -37,6 +37,7 @@ def drag(live, session, obj, values, ticks=3, name="cubeness"):
     return min(shares), max(steps) / np.ptp(before, axis=0).max()
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("crispness", [1.0, 0.5])
 def test_a_crisp_shape_stays_crisp_while_cubeness_is_dragged(live, begin, one_phase, crispness):
     obj = add_ball()
@@ -67,6 +68,7 @@ def no_time(live, monkeypatch):
     monkeypatch.setattr(f"{live.__name__}.session._LEAST_LIFE", 0.0)
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("name", DRAGGED)
 def test_a_crisp_shape_stays_crisp_while_other_settings_are_dragged(
     live, begin, one_phase, no_time, name
@@ -85,6 +87,7 @@ def test_a_crisp_shape_stays_crisp_while_other_settings_are_dragged(
     check_same_as_cubify(obj)
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("is_cubic", [False, True])
 def test_a_crisp_shape_stays_crisp_while_a_handle_is_dragged(live, begin, one_phase, is_cubic):
     obj = add_ball()
@@ -183,6 +186,7 @@ def test_the_shape_of_cubify_is_reached_in_small_steps(live, begin, part, one_ph
     check_same_as_cubify(obj)
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("ending", ["CONFIRM", "CANCEL", "SAVE", "UNDONE"])
 def test_on_the_way_to_the_shape_of_cubify(live, begin, part, one_phase, monkeypatch, ending):
     """Whatever ends or interrupts it there, nothing of the way is left."""

@@ -47,7 +47,7 @@ def test_deleting_one_of_two_goes_on_with_the_other(live, begin):
     check_gone(live)
 
 
-@pytest.mark.thorough(4)
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "VERTEX_PAINT", "TEXTURE_PAINT"])
 @pytest.mark.parametrize("is_at_rest", [False, True])
 def test_another_mode_confirms_it_and_is_there_afterwards(live, begin, mode, is_at_rest):
@@ -307,6 +307,7 @@ def test_disabling_the_extension_ends_it_with_what_is_seen(live, begin, extensio
         bpy.ops.preferences.addon_enable(module=extension.__name__)
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("error", [RuntimeError("broken"), MemoryError("no memory")])
 @pytest.mark.parametrize("phase", ["local_step", "global_step", "finish", "placed_positions"])
 def test_an_exception_in_the_solver_loses_nothing(

@@ -5,7 +5,15 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from live_steps import add_monkey, bits, check_gone, confirm, follower_of, tick_to_rest
+from live_steps import (
+    add_monkey,
+    bits,
+    check_gone,
+    check_same_as_cubify,
+    confirm,
+    follower_of,
+    tick_to_rest,
+)
 from scene import edit_mode, select
 from snapshot import differences, snapshot_mesh
 
@@ -140,6 +148,7 @@ def test_confirming_does_not_wait_for_a_pause_and_keeps_the_place(live, follow):
     check_same_as_new_object(obj, follower_of(obj))
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT", "SCULPT"])
 def test_cancelling_removes_the_follower_and_keeps_the_strokes(live, follow, mode):
     obj = add_monkey()
@@ -315,6 +324,14 @@ def test_what_modifiers_show_is_followed(live, follow, change):
     check_same_as_new_object(obj, follower_of(obj))
 
 
+def test_with_modifiers_another_place_for_the_result_is_another_mesh(live, begin):
+    obj = add_box()
+    session = tick_to_rest(begin(obj, result="NEW_OBJECT", with_modifiers=True))
+    live.live_properties().result = "MESH"
+    confirm(live, tick_to_rest(session))
+    check_same_as_cubify(obj)
+
+
 def check_the_timeline_is_followed(live, follow, obj):
     bpy.context.scene.frame_set(1)
     session = tick_to_rest(follow(obj, with_modifiers=True))
@@ -326,6 +343,7 @@ def check_the_timeline_is_followed(live, follow, obj):
     check_same_as_new_object(obj, follower_of(obj))
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize(
     ("owner", "name", "values"),
     [
@@ -377,6 +395,7 @@ def test_painting_the_map_is_followed(live, follow):
     check_same_as_new_object(obj, follower_of(obj))
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("moved_by", ["keys", "strip", "driver", "constraint"])
 def test_it_stands_beside_an_original_that_something_else_moves(live, follow, moved_by):
     obj = add_monkey()

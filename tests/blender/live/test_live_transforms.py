@@ -43,7 +43,7 @@ def moved(V, matrix):
     return V @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-@pytest.mark.thorough(3)
+@pytest.mark.thorough(2)
 @WAYS
 @pytest.mark.parametrize("ending", ["confirm", "cancel", "cancel at once"])
 @pytest.mark.parametrize("was_cubic", [False, True])

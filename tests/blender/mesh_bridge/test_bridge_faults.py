@@ -59,6 +59,7 @@ def check_faults(bridge):
     return check
 
 
+@pytest.mark.thorough(5)
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("result", RESULTS)
 def test_a_result_that_cannot_be_written_changes_nothing(bridge, check_faults, state, result):

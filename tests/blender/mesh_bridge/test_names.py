@@ -89,6 +89,7 @@ def test_group_in_edit_mode(bridge, cubify, plain_monkey, rename):
     assert position_of(mesh).tobytes() == original
 
 
+@pytest.mark.thorough(12)
 @pytest.mark.parametrize("kind", ["UV map", "color", "vector of faces", "number"])
 @pytest.mark.parametrize("name", NAMES)
 def test_attribute_of_the_artist_in_the_way(bridge, error, monkey, kind, name):

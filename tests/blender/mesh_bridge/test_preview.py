@@ -55,6 +55,7 @@ def test_the_picture_does_not_depend_on_the_value_of_our_key(bridge, key_value):
     assert np.abs(position_of(seen) - position_of(obj.data)).max() < 1e-6
 
 
+@pytest.mark.thorough(14)
 @pytest.mark.parametrize(
     ("state", "result"),
     [

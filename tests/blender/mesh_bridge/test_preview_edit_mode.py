@@ -44,6 +44,7 @@ KEYS = {
 """how many shape keys there are"""
 
 
+@pytest.mark.thorough(10)
 @pytest.mark.parametrize(
     ("state", "active"), [(state, n) for state, count in KEYS.items() for n in range(count or 1)]
 )

@@ -67,6 +67,7 @@ SPOILT = {
 """functions that change what they are given, or return something else"""
 
 
+@pytest.mark.thorough(18)
 @pytest.mark.parametrize(
     ("result", "how"),
     [

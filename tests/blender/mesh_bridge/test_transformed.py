@@ -121,6 +121,7 @@ def affine(before, after):
     return lambda points: np.c_[points.astype(np.float64), np.ones(len(points))] @ found
 
 
+@pytest.mark.thorough(20)
 @pytest.mark.parametrize("name", TRANSFORMS)
 def test_original_goes_along(bridge, cubify, monkey, name):
     mesh = monkey.data
@@ -141,6 +142,7 @@ def test_original_goes_along(bridge, cubify, monkey, name):
     assert not bridge.has_traces(mesh)
 
 
+@pytest.mark.thorough(12)
 @pytest.mark.parametrize("name", TRANSFORMS)
 def test_shape_keys_go_along(bridge, cubify, name):
     """They end where those of a twin do that was never cubified."""
@@ -268,6 +270,7 @@ def test_results_of_the_first_version(bridge, cubify, error, monkey):
             assert differences(before, snapshot_object(monkey), ignore=active) == []
 
 
+@pytest.mark.thorough(14)
 @pytest.mark.parametrize("name", TRANSFORMS)
 def test_our_shape_key_stays_ours(bridge, cubify, monkey, name):
     mesh = monkey.data

@@ -44,6 +44,7 @@ def _results(way, bent):
     return ball, eye, position_of(ball.data), position_of(eye.data)
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("way", ["BONE", "CHILD_OF", "ARMATURE"])
 def test_a_pose_changes_nothing_of_what_is_solved(way):
     *_, ball, eye = _results(way, 0.0)

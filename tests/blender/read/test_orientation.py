@@ -27,7 +27,7 @@ def test_world_orientation_equals_turning_the_cube_against_the_object():
 RIGHT = math.pi / 2
 
 
-@pytest.mark.thorough(4)
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("together", ["PARTS", "SELECTION"])
 @pytest.mark.parametrize(
     ("turn", "scale"),

@@ -11,7 +11,7 @@ from live_steps import bits, check_same_as_cubify, confirm, tick_to_rest
 from lumps import FLIP_X, add_lump, partner_of
 from rich_mesh import position_of
 from scene import add_copy, add_monkey, add_triangles, bmesh_of, cubify, select
-from solids import add_solid
+from solids import add_solid, share_facing
 
 OPTIONS = {"refine": "OFF", "max_iterations": 150, "solidity": 0.0}
 
@@ -48,16 +48,6 @@ def add_region(obj, group, **settings):
     return region
 
 
-def share_facing(obj, normals, where, angle=12.0):
-    """Return the share of some faces, by their original heights, that face one of the normals."""
-    mesh = obj.data
-    areas, found = np.empty(len(mesh.polygons)), np.empty((len(mesh.polygons), 3))
-    mesh.polygons.foreach_get("area", areas)
-    mesh.polygons.foreach_get("normal", found.ravel())
-    near = (found @ np.asarray(normals).T).max(axis=1) > np.cos(np.radians(angle))
-    return areas[near & where].sum() / areas[where].sum()
-
-
 def face_middles(obj):
     found = np.empty((len(obj.data.polygons), 3))
     obj.data.polygons.foreach_get("center", found.ravel())
@@ -74,8 +64,9 @@ def test_each_part_has_its_own_form(part, weights):
     add_region(ball, "Top", form="OCTAHEDRON", cubeness=1.5)
     cubify(cubeness=1.5, **OPTIONS)
     gem, box = forms.octahedron().normals, forms.cube().normals
-    assert share_facing(ball, gem, heights > 0.5) > 0.6 > share_facing(ball, box, heights > 0.5)
-    assert share_facing(ball, box, heights < -0.4) > 0.6 > share_facing(ball, gem, heights < -0.4)
+    for form, other, where in ((gem, box, heights > 0.5), (box, gem, heights < -0.4)):
+        facing = [share_facing(ball, sides, 12.0, where) for sides in (form, other)]
+        assert facing[0] > 0.6 > facing[1]
     bpy.ops.cubic_craft.restore()
     assert bits(ball) == before
 

@@ -62,6 +62,7 @@ def joined(objects):
     return obj
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY", "NEW_OBJECT"])
 def test_three_objects_become_what_their_joined_mesh_becomes(trio, result):
     one = joined(trio)
@@ -145,6 +146,7 @@ def test_handles_hold_and_pose_in_each_objects_coordinates(trio):
     np.testing.assert_allclose(moved, [[0.3, 0.0, 0.0]] * 40, atol=1e-5)
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("change", ["place", "solidity", "map", "together", "gone"])
 def test_what_live_leaves_is_what_cubify_gives(live, begin, trio, change):
     session = tick_to_rest(begin(*trio, cubeness=0.5))

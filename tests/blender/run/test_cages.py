@@ -185,7 +185,7 @@ AS_THEY_ARE = {
 }
 
 
-@pytest.mark.thorough(5)
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("how", AS_THEY_ARE)
 def test_what_is_not_smooth_or_changed_before_is_solved_as_it_is(how):
     first, options = AS_THEY_ARE[how]

@@ -23,8 +23,16 @@ def add_detailed(name="Suzanne", **where):
     return obj
 
 
+def add_rough():
+    """Add a smooth monkey after a few iterations, for what does not depend on its shape."""
+    obj = add_monkey()
+    bpy.ops.object.shade_smooth()
+    cubify(max_iterations=2)
+    return obj
+
+
 def bake(**options):
-    return bpy.ops.cubic_craft.bake_normal_map(**{"resolution": 512, **options})
+    return bpy.ops.cubic_craft.bake_normal_map(**{"resolution": 64, **options})
 
 
 def pixels(image):
@@ -104,7 +112,7 @@ def nearest_normals(mesh, points):
 def test_the_map_has_the_normals_of_the_cubic_mesh(uv):
     obj = add_detailed(location=(3, 2, 1), rotation=(0.3, 0.2, 1.0))
     before = snapshot_mesh(obj.data)
-    printed = reports_of(lambda: bake(uv=uv, triangles=800))
+    printed = reports_of(lambda: bake(uv=uv, triangles=800, resolution=512))
     assert differences(before, snapshot_mesh(obj.data)) == []
     low, image = bpy.context.object, bpy.data.images["Suzanne Normal"]
     assert low.name == "Suzanne Low" and low.matrix_world == obj.matrix_world
@@ -139,13 +147,26 @@ def bends(mesh):
 def test_edges_of_levels_of_detail_lie_between_sides(triangles):
     """They are in a side, without a bend, or between sides, with a clear one."""
     add_detailed()
-    bake(triangles=triangles, resolution=64)
+    bake(triangles=triangles)
     lengths, angles = bends(bpy.context.object.data)
     assert lengths[(angles > 5) & (angles < 25)].sum() < 0.29 * lengths.sum()
 
 
+@pytest.mark.parametrize(("is_cut", "angle", "is_hard"), [(0, 40, 0), (1, 40, 1), (1, 20, 0)])
+def test_edges_between_islands_are_hard_at_smaller_angles(part, is_cut, angle, is_hard):
+    rise = np.tan(np.radians(angle))
+    mesh = bpy.data.meshes.new("Bent")
+    places = [(0, 0, 0), (0, 1, 0), (-1, 0, 0), (1, 0, rise)]
+    mesh.from_pydata(places, [], [(0, 1, 2), (1, 0, 3)])
+    corners = np.array([(0, 0), (0, 1), (-1, 0), (0, 1), (0, 0), (1, 0)], np.float32)
+    corners[3:, 0] += 2.0 * is_cut
+    mesh.uv_layers.new(name="UVMap").uv.foreach_set("vector", corners.ravel())
+    part("send.low_poly").set_hard_edges(mesh, "UVMap")
+    assert sum(edge.use_edge_sharp for edge in mesh.edges) == is_hard
+
+
 def test_the_material_shows_the_map(part):
-    obj = add_detailed()
+    obj = add_rough()
     skin = bpy.data.materials.new("Skin")
     if bpy.app.version < (5, 0):
         skin.use_nodes = True
@@ -168,7 +189,7 @@ def test_the_material_shows_the_map(part):
 
 
 def test_a_mesh_without_uv_and_material_gets_both():
-    obj = add_detailed()
+    obj = add_rough()
     obj.data.uv_layers.remove(obj.data.uv_layers[0])
     bake()
     low = bpy.context.object
@@ -179,7 +200,7 @@ def test_a_mesh_without_uv_and_material_gets_both():
 
 
 def test_overlapping_uvs_are_not_baked_to():
-    obj = add_detailed()
+    obj = add_rough()
     layer = obj.data.uv_layers.active
     values = corner_values(layer.uv, "vector", 2)
     values[:, 0] = np.abs(values[:, 0] - 0.5)  # one half over the other
@@ -193,7 +214,7 @@ def test_overlapping_uvs_are_not_baked_to():
 
 
 def test_scene_and_settings_are_kept():
-    obj = add_detailed()
+    obj = add_rough()
     scene = bpy.context.scene
     scene.render.engine = "BLENDER_WORKBENCH"
     scene.render.bake.cage_extrusion = 0.25
@@ -213,7 +234,7 @@ def test_scene_and_settings_are_kept():
 
 def test_a_modifier_and_an_armature():
     """The first is a part of the low-poly mesh, the second poses it."""
-    obj = add_detailed()
+    obj = add_rough()
     with edit_mode(obj) as edited:
         for vertex in [vertex for vertex in edited.verts if vertex.co.x < -1e-4]:
             edited.verts.remove(vertex)
@@ -225,7 +246,7 @@ def test_a_modifier_and_an_armature():
     obj.modifiers.new("Mirror", "MIRROR")
     obj.modifiers.new("Armature", "ARMATURE").object = armature
     select(obj)
-    cubify()
+    cubify(max_iterations=2)
     bake()
     low = bpy.context.object
     assert [modifier.type for modifier in low.modifiers] == ["ARMATURE"]
@@ -239,6 +260,7 @@ def key_points(key):
     return corner_values(key.data, "co", 3)
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize(("triangles", "off"), [(300, 0.025), (1000, 0.017), (3000, 0.0075)])
 def test_faces_keep_their_expressions_at_each_level_of_detail(triangles, off):
     add_detailed()
@@ -253,7 +275,7 @@ def test_faces_keep_their_expressions_at_each_level_of_detail(triangles, off):
     cubify(result="MESH")
     blocks = obj.data.shape_keys.key_blocks
     base, F = key_points(blocks[0]), triangles_of(obj.data)[0]
-    bake(triangles=triangles, resolution=64)
+    bake(triangles=triangles)
     low = bpy.context.object
     assert 0.8 * triangles < len(low.data.polygons) <= triangles
     keys = low.data.shape_keys.key_blocks
@@ -320,7 +342,7 @@ def test_lips_that_touch_still_part():
         is_upper = ~is_upper
     key.points.foreach_set("co", (V + np.where(is_upper, 1.0, 0.0)[:, None] * [0, 0, 1]).ravel())
     cubify(result="MESH", refine="OFF")
-    bake(resolution=64)
+    bake()
     keys = bpy.context.object.data.shape_keys.key_blocks
     rest, opened = (key_points(keys[name]) for name in ("Basis", "Open"))
     lifted = (opened - rest)[:, 2]
@@ -329,7 +351,7 @@ def test_lips_that_touch_still_part():
 
 
 def test_the_file_lies_beside_the_blend_file(tmp_path, reopen):
-    add_detailed()
+    add_rough()
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
     taken = tmp_path / "Suzanne_Normal.png"
     taken.write_bytes(b"of the artist")
@@ -378,7 +400,7 @@ def test_a_failure_leaves_nothing(part, monkeypatch, place):
     def fail(*_):
         raise ValueError("no luck")
 
-    obj = add_detailed()
+    obj = add_rough()
     module, name = place.split(".")
     monkeypatch.setattr(part(f"send.{module}"), name, fail)
     kinds = ("scenes", "objects", "meshes", "images", "materials")

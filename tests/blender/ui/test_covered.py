@@ -70,6 +70,7 @@ def _nodes(obj, _):
 COVERS = [_cached, _sequence, _laplacian, _surface, _nodes]
 
 
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("cover", COVERS)
 def test_a_covered_result_is_a_warning(cover, tmp_path, part):
     obj = add_monkey()

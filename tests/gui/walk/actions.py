@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The list of what can happen in a step of the walk, and what its members share.
 
-An action is a generator function of a ``random.Random``. It returns what it has done in words, or
-None where it cannot be done now; another one is then drawn.
+An action is a function of a ``random.Random``, a generator function where Blender has to go on
+meanwhile. It returns what it has done in words, or None where it cannot be done now; another one is
+then drawn.
 """
 
 import dataclasses
@@ -34,7 +35,7 @@ ALL: list[Action] = []
 
 
 def action(weight=1.0, reshapes=False, goes_back=False):
-    """Add a generator function to the list."""
+    """Add a function to the list."""
 
     def add(do):
         ALL.append(Action(do, weight, reshapes, goes_back))

@@ -34,7 +34,6 @@ def add_mesh(rng):
     name, options = rng.choice(_PRIMITIVES)
     location = tuple(rng.uniform(-2, 2) for _ in range(3))
     return call(name, location=location, **options)
-    yield
 
 
 @action(4)
@@ -48,14 +47,12 @@ def select_one(rng):
     bpy.context.view_layer.objects.active = chosen
     bpy.ops.ed.undo_push(message="Select")
     return chosen.name
-    yield
 
 
 @action(1)
 def select_all(rng):
     name = "mesh.select_all" if bpy.context.mode == "EDIT_MESH" else "object.select_all"
     return call(name, action=rng.choice(["SELECT", "DESELECT", "INVERT"]))
-    yield
 
 
 @action(2, reshapes=True)
@@ -63,13 +60,11 @@ def duplicate(rng):
     if len(bpy.data.objects) >= MOST_OBJECTS:
         return None
     return call("object.duplicate", linked=rng.random() < 0.4)
-    yield
 
 
 @action(1.5)
 def delete_object(_rng):
     return call("object.delete") if len(bpy.data.objects) > 2 else None
-    yield
 
 
 @action(5)
@@ -78,7 +73,6 @@ def change_mode(rng):
         return None
     mode = rng.choice(["OBJECT", "OBJECT", "EDIT", "EDIT", "WEIGHT_PAINT", "SCULPT"])
     return call("object.mode_set", mode=mode)
-    yield
 
 
 @action(7, reshapes=True)
@@ -98,7 +92,6 @@ def edit_mesh(rng):
         is_small = len(active_mesh().data.vertices) < MOST_VERTICES // 4
         return call("mesh.subdivide") if is_small else None
     return call(rng.choice(["mesh.remove_doubles", "mesh.flip_normals", "mesh.sort_elements"]))
-    yield
 
 
 def _transforming_crashes():
@@ -119,21 +112,18 @@ def transform(rng):
     scale = [rng.choice([0.8, 1.0, 1.3]) for _ in range(3)]
     scale[0] *= rng.choice([1, 1, -1])
     return call("transform.resize", value=scale)
-    yield
 
 
 @action(2, reshapes=True)
 def apply_transform(rng):
     location, rotation = rng.random() < 0.3, rng.random() < 0.5
     return call("object.transform_apply", location=location, scale=True, rotation=rotation)
-    yield
 
 
 @action(1, reshapes=True)
 def set_origin(rng):
     kinds = ["GEOMETRY_ORIGIN", "ORIGIN_GEOMETRY", "ORIGIN_CURSOR", "ORIGIN_CENTER_OF_MASS"]
     return call("object.origin_set", type=rng.choice([*kinds, "ORIGIN_CENTER_OF_VOLUME"]))
-    yield
 
 
 @action(1, reshapes=True)
@@ -142,7 +132,6 @@ def mirror(rng):
         return None
     axis = [rng.random() < 0.5 for _ in range(3)]
     return call("transform.mirror", constraint_axis=axis)
-    yield
 
 
 @action(1, reshapes=True)
@@ -151,7 +140,6 @@ def join(_rng):
     if len(selected) < 2 or sum(len(o.data.vertices) for o in selected) > MOST_VERTICES:
         return None
     return call("object.join")
-    yield
 
 
 @action(4, reshapes=True)
@@ -180,7 +168,6 @@ def shape_keys(rng):
         keys.key_blocks[number].name = rng.choice(["Cubic", "Basis", "Smile", "é" * 30])
     bpy.ops.ed.undo_push(message="Shape key")
     return f"{kind} {number}"
-    yield
 
 
 @action(3)
@@ -207,7 +194,6 @@ def vertex_groups(rng):
         obj.data.update()
     bpy.ops.ed.undo_push(message="Vertex group")
     return f"{kind} {group.name}"
-    yield
 
 
 @action(1, reshapes=True)
@@ -222,13 +208,11 @@ def modifiers(rng):
             return call("object.modifier_apply", modifier=name)
         return call("object.modifier_remove", modifier=name)
     return call("object.modifier_add", type=rng.choice(["SUBSURF", "MIRROR", "TRIANGULATE"]))
-    yield
 
 
 @action(1)
 def single_user(_rng):
     return call("object.make_single_user", object=True, obdata=True)
-    yield
 
 
 @action(1)
@@ -241,7 +225,6 @@ def rename(rng):
         obj.data.name = obj.name
     bpy.ops.ed.undo_push(message="Rename")
     return obj.name
-    yield
 
 
 @action(5)
@@ -254,7 +237,6 @@ def move_target(rng):
     target.location[rng.randrange(3)] += rng.uniform(-0.3, 0.3)
     bpy.ops.ed.undo_push(message="Move")
     return target.name
-    yield
 
 
 @action(2)
@@ -264,7 +246,6 @@ def change_frame(rng):
     if rng.random() < 0.3:
         bpy.ops.ed.undo_push(message="Change frame")
     return str(number)
-    yield
 
 
 @action(1)
@@ -272,7 +253,6 @@ def add_empty(_rng):
     if len(bpy.data.objects) >= MOST_OBJECTS:
         return None
     return call("object.empty_add", location=(0.5, -1, 0.5))
-    yield
 
 
 @action(1)
@@ -280,7 +260,6 @@ def hide_or_show(rng):
     if rng.random() < 0.6 or len(meshes_in_view()) < 2:
         return call("object.hide_view_clear")
     return call("object.hide_view_set")
-    yield
 
 
 @action(2)

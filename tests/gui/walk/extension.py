@@ -60,7 +60,6 @@ def restore(_rng):
             assert now[uid].shape == before.original, f"Restore: {before.name} has another shape"
             restored += 1
     return f"{done}, {restored} meshes"
-    yield
 
 
 @action(2)
@@ -69,19 +68,16 @@ def restore_first(_rng):
     if not is_on():
         return None
     return call("cubic_craft.restore_first", "INVOKE_DEFAULT")
-    yield
 
 
 @action(1)
 def apply(_rng):
     return call("cubic_craft.apply", "INVOKE_DEFAULT") if is_on() else None
-    yield
 
 
 @action(1)
 def auto_orient(_rng):
     return call("cubic_craft.auto_orient", "INVOKE_DEFAULT") if is_on() else None
-    yield
 
 
 @action(8)
@@ -97,7 +93,6 @@ def start_or_confirm_live(rng):
 @action(1)
 def cancel_live(_rng):
     return call("cubic_craft.live_cancel", "INVOKE_DEFAULT") if is_live() else None
-    yield
 
 
 @action(9)
@@ -111,7 +106,6 @@ def handles(rng):
         return _change_handle(name, rng)
     options = {"direction": rng.choice(["UP", "DOWN"])} if name == "move" else {}
     return call(f"cubic_craft.handle_{name}", "INVOKE_DEFAULT", **options)
-    yield
 
 
 def _change_handle(name, rng):
@@ -148,13 +142,11 @@ def regions(rng):
     setattr(region, what, value)
     bpy.ops.ed.undo_push(message="Change a region")
     return f"{what} = {value!r}"
-    yield
 
 
 @action(1)
 def directions_from_selection(_rng):
     return call("cubic_craft.form_from_selection", "INVOKE_DEFAULT") if is_on() else None
-    yield
 
 
 @action(7)
@@ -174,7 +166,6 @@ def change_setting(rng):
     if not is_live():
         bpy.ops.ed.undo_push(message="Change a setting")
     return f"{name} = {value!r}"
-    yield
 
 
 @action(1)
@@ -186,7 +177,6 @@ def key_setting(_rng):
     obj.keyframe_insert("cubic_craft.cubeness")
     bpy.ops.ed.undo_push(message="Insert a key")
     return obj.name
-    yield
 
 
 @action(1)

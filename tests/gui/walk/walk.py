@@ -2,6 +2,7 @@
 """The walk itself: draws actions, does them, and tells how to repeat a failure."""
 
 import collections
+import inspect
 import random
 import time
 
@@ -47,7 +48,9 @@ def _step(rng, number, last):
     while True:
         (action,) = rng.choices(actions.ALL, weights)
         last.append(f"{number}: {action.name} ...")
-        text = yield from action.do(rng)
+        text = action.do(rng)
+        if inspect.isgenerator(text):
+            text = yield from text
         last.pop()
         if text is not None:
             mode = bpy.context.mode

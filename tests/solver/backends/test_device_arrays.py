@@ -113,9 +113,9 @@ def test_a_run_is_that_of_the_host(name, pins, precision, monkeypatch, on_a_devi
 def test_it_ends_where_the_factorisation_does(coarsest, monkeypatch, on_a_device):
     monkeypatch.setattr("solver.global_step.multigrid._COARSEST", coarsest)
     V, F = shapes.two_blobs()
-    exact = stylize(V, F, 0.4, device=here.device, tolerance=1e-5, proxy=PAPER)
+    exact = stylize(V, F, 0.4, device=here.device, tolerance=1e-4, proxy=PAPER)
     on_a_device()
-    near = stylize(V, F, 0.4, device=here.device, tolerance=1e-5, proxy=PAPER)
+    near = stylize(V, F, 0.4, device=here.device, tolerance=1e-4, proxy=PAPER)
     assert near.converged
     assert near.energy.total == pytest.approx(exact.energy.total, rel=1e-4)
 
@@ -172,11 +172,11 @@ def test_rotations_that_the_kernel_does_not_certify_are_found_too(
 
 def test_it_starts_from_a_coarser_mesh_and_can_be_looked_at(monkeypatch, on_a_device):
     pytest.importorskip("pyamg")
-    monkeypatch.setattr("solver.coarse_to_fine.start.LEAST_VERTICES", 600)
-    monkeypatch.setattr("solver.coarse_to_fine.start.COARSEST_VERTICES", 300)
+    monkeypatch.setattr("solver.coarse_to_fine.start.LEAST_VERTICES", 300)
+    monkeypatch.setattr("solver.coarse_to_fine.start.COARSEST_VERTICES", 150)
 
     def make():
-        V, F = shapes.blob(4)
+        V, F = shapes.blob(3)
         run = Run(
             Stylization(
                 Setup(rest_mesh(V, F, PAPER), [3, 4]),
@@ -228,7 +228,7 @@ def test_a_full_device_is_told(monkeypatch, on_a_device):
 
 
 # on a GPU only one: the kernels are compiled anew each time
-THEN = by_device(DEVICE, ["step", "finish", "rotations", "positions"], ["step"])
+THEN = by_device(DEVICE, ["step", "rotations"], ["step"])
 
 
 @pytest.mark.thorough(1)

@@ -15,6 +15,7 @@ def single(V, F, cubeness, **options):
     return stylize(V, F, cubeness, device="cpu", precision="f32", proxy=PAPER, **options)
 
 
+@pytest.mark.thorough(6)
 @pytest.mark.parametrize("name", shapes.ALL)
 @pytest.mark.parametrize("cubeness", [0.0, 0.4])
 def test_runs_converge_to_the_shape_of_64_bit(name, cubeness):

@@ -156,6 +156,14 @@ def test_no_link_leads_to_a_vertex_nearby_on_the_surface():
     assert (V[i, 2] * V[j, 2] < 0.0).all(), "from one side of the fold to the other"
 
 
+@pytest.mark.parametrize(("normal", "is_gap"), [((0, 0, -1), True), ((1, 0, 0), False)])
+def test_a_gap_faces_both_of_its_ends(normal, is_gap):
+    """What stands on a floor faces it from the floor only."""
+    V = np.array([[0.0, 0, 0], [0, 0, 0.05]])
+    gaps = Gaps(V, np.array([[0.0, 0, 1], normal]), np.empty((0, 3), int))
+    assert bool(len(gaps.partners(np.array([0]))[0])) == is_gap
+
+
 def test_what_is_asked_again_is_answered_as_before_without_a_search(monkeypatch):
     V, F = fold(30.0)
     gaps = Gaps(V, areas_and_normals(V, F)[1], F)

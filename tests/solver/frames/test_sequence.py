@@ -90,6 +90,7 @@ def test_the_same_pose_is_the_same_setup(proxy):
         np.testing.assert_array_equal(mine, theirs)
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("proxy", PROXIES)
 def test_at_cubeness_zero_each_frame_is_the_input(proxy, device):
     V, F = blob()

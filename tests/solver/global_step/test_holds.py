@@ -42,6 +42,7 @@ def pose_of(state, weights):
     return R, rest.box.from_unit(start[None])[0], rest.box.from_unit(end[None])[0]
 
 
+@pytest.mark.thorough(2)
 @PROXIES
 def test_a_group_goes_where_it_is_asked_to_and_becomes_cubic(proxy, device):
     V, F = blob()

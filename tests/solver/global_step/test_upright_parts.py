@@ -40,6 +40,7 @@ def leaning(mesh, cubeness):
     return [degrees(mesh[0][part == k], result.positions[part == k]) for k in range(part.max() + 1)]
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("cubeness", [0.2, 0.4, 1.0])
 def test_no_part_of_a_lamp_leans(cubeness, monkeypatch):
     _, post, _, roof = leaning(lamp(), cubeness)

@@ -81,6 +81,18 @@ def test_the_energy_is_that_of_its_formula():
     np.testing.assert_allclose(np.einsum("mij,mj->mi", R, c), t, atol=1e-9)
 
 
+def test_another_target_is_gone_on_with_as_far_out():
+    hard = HardStylization(soft_blob(Style(0.6, crispness=1.0)))
+    for _ in range(5):
+        hard.step()
+    hard.give_back_volume()
+    step, U = hard._local, hard._motion.positions
+    other = step.go_on_with(hard.rest, hard.hardening.target)
+    assert step.outward.max() > 1e-4
+    np.testing.assert_array_equal(other.outward, step.outward)
+    np.testing.assert_allclose(other.update(U)[0], step.update(U)[0], rtol=1e-12)
+
+
 @pytest.mark.thorough(4)
 @pytest.mark.parametrize("name", [name for name in POLYTOPES if name not in ROUND])
 def test_a_ball_gets_the_sides_of_its_form(name):
@@ -217,19 +229,10 @@ def test_another_crispness_has_the_end_of_a_new_run(together):
 
 @pytest.mark.parametrize(("thickness", "is_hardened"), [(0.004, False), (0.2, True)])
 def test_what_is_thin_all_over_ends_with_the_soft_shape(thickness, is_hardened):
-    V, F = ring(thickness)
+    V, F = proxy_shapes.torus(200, 8, thickness)
     done = Run(Stylization(Setup(rest_mesh(V, F)), Style(0.4, crispness=0.9), options=KEPT))
     done.complete()
     assert (done.hard is not None) == is_hardened
-
-
-def ring(thickness, count=200, around=8):
-    i, j = (x.ravel() for x in np.indices((count, around)))
-    a, b = 2.0 * np.pi * i / count, 2.0 * np.pi * j / around
-    far = 1.0 + thickness * np.cos(b)
-    V = np.stack([far * np.cos(a), far * np.sin(a), thickness * np.sin(b)], axis=1)
-    ahead, up = (i + 1) % count * around, (j + 1) % around
-    return V, np.stack([i * around + j, ahead + j, ahead + up, i * around + up], axis=1)
 
 
 # -- details ---------------------------------------------------------------------------------------
@@ -326,14 +329,9 @@ def test_a_sequence_that_was_stopped_goes_on_alike():
 
 
 def test_a_flat_roof_between_two_sides_is_not_bent():
-    V = np.array([[x, y, z] for x in (-1.0, 1) for y in (-1.5, 1.5) for z in (0.0, 1.5)])
-    V = np.concatenate([V, [[0.0, -1.5, 2.5], [0.0, 1.5, 2.5]]])
-    sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 2, 6, 4], [1, 8, 9, 3], [5, 7, 9, 8]]
-    ends = [[0, 4, 5], [0, 5, 1], [1, 5, 8], [2, 3, 7], [2, 7, 6], [3, 9, 7]]
-    F = np.array(
-        [*ends, *([a, b, c] for a, b, c, _ in sides), *([a, c, d] for a, b, c, d in sides)]
-    )
+    V, faces = proxy_shapes.house()
+    F = np.array([[f[0], f[k], f[k + 1]] for f in faces for k in range(1, len(f) - 1)])
     U = stylize(V, F, 0.4, proxy=ProxyOptions(), keep_rotation=True, crispness=0.9).positions
-    for roof in ([1, 8, 9, 3], [5, 7, 9, 8]):
+    for roof in faces[-2:]:
         X = U[roof] - U[roof].mean(axis=0)
         assert np.linalg.svd(X)[1][2] < 0.02

@@ -4,6 +4,7 @@
 import numpy as np
 import proxy_shapes
 import pytest
+from facing import squareness
 
 from solver import rest_mesh, stylize
 from solver.hardening.rims import rims_and_flats
@@ -29,13 +30,6 @@ def revolved(profile, around=48, spacing=0.06):
     k, after, tip = np.arange(around), np.roll(np.arange(around), -1), np.full(around, len(V))
     caps = [np.stack([tip, after, k], axis=1), np.stack([tip + 1, last + k, last + after], axis=1)]
     return np.concatenate([V, tips]), np.concatenate([F, *caps])
-
-
-def squareness(V):
-    """Return how much farther the corners are from the middle than the sides; sqrt(2) at most."""
-    radius, angle = np.linalg.norm(V[:, :2], axis=1), np.arctan2(V[:, 1], V[:, 0])
-    quarter = np.abs((angle + np.pi / 4) % (np.pi / 2) - np.pi / 4)
-    return radius[quarter > np.pi / 4 - 0.1].max() / radius[quarter < 0.1].max()
 
 
 def test_the_outline_of_a_brim_is_square():

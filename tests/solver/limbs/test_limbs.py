@@ -51,6 +51,7 @@ def angle_between(a, b):
     return np.degrees(np.arccos(np.clip(a @ b, -1.0, 1.0)))
 
 
+@pytest.mark.thorough(2)
 @pytest.mark.parametrize("degrees", [10, 30, 45, 60])
 def test_a_tilted_bar_becomes_a_box_along_itself(degrees):
     turn = tilted(degrees)

@@ -67,6 +67,15 @@ def test_many_short_bones_of_a_tail_are_measured_together():
     assert alone.max() == 0.0
 
 
+def test_before_a_fork_a_bone_is_measured_with_neither_of_the_next():
+    way = np.array([np.sin(np.radians(15.0)), 0.0, np.cos(np.radians(15.0))])
+    first = (0 * X, Z, 0.4, -1)
+    legs = [(Z, Z + way * side, 0.4, 0) for side in ([1, 1, 1], [-1, 1, 1])]
+    one, _ = shares(first, legs[0])
+    both, _ = shares(first, *legs)
+    assert one.min() > 0.9 and both.max() == 0.0
+
+
 def test_a_spine_in_a_wide_trunk_is_no_limb():
     found, _ = shares(*chain([0.25 * k * Z for k in range(5)], [0.4, 0.45, 0.45, 0.5]))
     assert found.max() == 0.0

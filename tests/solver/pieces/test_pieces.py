@@ -140,6 +140,15 @@ def test_what_stands_on_the_floor_stays_there():
     np.testing.assert_array_equal(free[len(V) :], kept[len(V) :])
 
 
+def test_what_is_held_is_not_put_on_the_floor():
+    V, F = blob(2)
+    held = np.where(V[:, 2] > V[:, 2].max() - 0.3, 0, -1)
+    piece = piece_of(V, F, Style(1.0), handles=[HandlePose()], handle_of=held)
+    free, kept = (solved(piece, keep_floor=on)[0] for on in (False, True))
+    assert abs(free[:, 2].min() - V[:, 2].min()) > 0.01
+    np.testing.assert_array_equal(free, kept)
+
+
 def test_a_seat_between_legs_that_stand_sinks_back_with_them():
     V, F = sphere(3)
     body = 0.7 * V + [0.0, 0.0, 0.75]

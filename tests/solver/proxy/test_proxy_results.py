@@ -6,7 +6,7 @@ import proxy_shapes
 import pytest
 import shapes
 from devices import by_device
-from facing import angle_to_axes
+from facing import angle_to_axes, squareness
 
 from solver import (
     PAPER,
@@ -25,7 +25,7 @@ KEPT = {"proxy": ProxyOptions(), "keep_rotation": True, "crispness": 0.0}
 Q = shapes.rotation(30, 20, 40)
 
 
-@pytest.mark.thorough(6)
+@pytest.mark.thorough(3)
 @pytest.mark.parametrize("turn", [0, 21, 63])
 @pytest.mark.parametrize("size", [(1, 1, 1), (6, 1, 0.5), (2, 1, 0.02)])
 def test_a_box_does_not_move_whatever_its_triangulation(size, turn, device):
@@ -173,13 +173,6 @@ def disc(height, radius=1.0, around=96, rings=20):
     outline = [(radius * (k + 0.5) / (rings + 0.5), 0.0) for k in range(rings + 1)]
     outline += [(r, height) for r, _ in outline[::-1]]
     return proxy_shapes.revolved(outline, around)
-
-
-def squareness(V):
-    """Return how much farther the corners are from the middle than the sides; sqrt(2) at most."""
-    radius, angle = np.linalg.norm(V[:, :2], axis=1), np.arctan2(V[:, 1], V[:, 0])
-    quarter = np.abs((angle + np.pi / 4) % (np.pi / 2) - np.pi / 4)
-    return radius[quarter > np.pi / 4 - 0.1].max() / radius[quarter < 0.1].max()
 
 
 @pytest.mark.thorough(3)

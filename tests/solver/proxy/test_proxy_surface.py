@@ -39,6 +39,7 @@ def test_a_seam_is_closed(make):
     np.testing.assert_array_equal(W[first[group]], W)
 
 
+@pytest.mark.thorough(1)
 @pytest.mark.parametrize("make", [proxy_shapes.split, proxy_shapes.cut])
 def test_a_seam_changes_nothing(make):
     V, F = shapes.blob(2)

@@ -4,12 +4,10 @@
 import numpy as np
 import pytest
 import shapes
+from local_problems import active_set_beside_admm, blob, deformed
 from scipy.spatial.transform import Rotation
-from tight_admm import TIGHT
 
 from solver import PAPER, Setup, SolverOptions, Style, Stylization, rest_mesh
-from solver.styles.active_set import active_set_rotations
-from solver.styles.admm import admm_rotations
 from solver.styles.blending import LEVELS, blended
 from solver.styles.forms import cone, cube, cylinder, icosahedron, octahedron, prism, tetrahedron
 from solver.styles.local_problem import LocalProblem
@@ -30,11 +28,6 @@ PAIRS = [("cube", "cube"), ("cube", "octahedron"), ("tetrahedron", "prism"), ("c
 def unit_vectors(count, seed=0):
     x = np.random.default_rng(seed).normal(size=(count, 3))
     return x / np.linalg.norm(x, axis=1, keepdims=True)
-
-
-def objective(problem, R):
-    fit, cost = problem.costs(R)
-    return problem.lam * cost - fit
 
 
 def cost_of(style, x):
@@ -110,25 +103,17 @@ def test_bodies_between_have_as_many_faces_as_euler_says():
 @pytest.mark.thorough(2)
 @pytest.mark.parametrize("pair", PAIRS)
 def test_the_local_step_is_exact_between_forms(pair):
-    rest = rest_mesh(*shapes.blob(2), proxy=PAPER)
+    rest = blob()
     n = len(rest.V)
     share = np.random.default_rng(3).random((n, 1))
     cubeness, Q, bodies, body_of = blended(two(pair), np.hstack([share, 1.0 - share]))
     form = polytopes([body or cube() for body in bodies], body_of)
-    R, uncertified = np.tile(np.eye(3), (n, 1, 1)), 0
-    states = None
-    for amount in (0.0, 0.02, 0.05):
-        moved = rest.V + amount * np.sin(4 * rest.V[:, [1, 2, 0]] + 1.0)
-        S = rest.matrices.covariances(moved) / rest.areas[:, None, None]
-        problem = LocalProblem(S, rest.normals, np.broadcast_to(Q, (n, 3, 3)), cubeness, form)
-        states = problem.starting(R) if states is None else states
-        reference, _ = admm_rotations(problem, R, states, TIGHT)
-        R, states, is_done = active_set_rotations(problem, R, states)
-        worse = objective(problem, R) - objective(problem, reference)
-        assert (worse / np.abs(S).sum(axis=(1, 2)))[is_done].max() < 1e-9
-        uncertified += (~is_done).sum()
-        rows = np.flatnonzero(~is_done)
-        R[rows], states[rows] = admm_rotations(problem.part(rows), R[rows], states[rows], TIGHT)
+
+    def problem_at(amount):
+        S = rest.matrices.covariances(deformed(rest.V, amount)) / rest.areas[:, None, None]
+        return LocalProblem(S, rest.normals, np.broadcast_to(Q, (n, 3, 3)), cubeness, form)
+
+    _, uncertified = active_set_beside_admm(problem_at)
     assert uncertified <= 0.02 * 3 * n
 
 
