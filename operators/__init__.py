@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators, one file each, named by its verb. All that are in such a file are registered."""
+"""The operators, in files named by their verbs. All that are in such a file are registered."""
 
 from importlib import import_module
 from pkgutil import iter_modules

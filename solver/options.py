@@ -12,6 +12,12 @@ from .styles.admm import AdmmOptions
 class SolverOptions:
     """How a shape is solved, by a `Stylization`, which also finds whether the device is available.
 
+    Raises
+    ------
+    CubicCraftError
+        An option has another type. That a device is not available is found by the
+        `Stylization`.
+
     Examples
     --------
     >>> from solver import SolverOptions

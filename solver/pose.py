@@ -21,6 +21,11 @@ class Pose(Value):
 
     A `Stylization` is begun in a pose, and refuses one that does not fit its setup.
 
+    Raises
+    ------
+    CubicCraftError
+        The limbs are of another type.
+
     Examples
     --------
     The lower half of a ball is pinned, and a tenth of it moves down:

@@ -50,6 +50,11 @@ class Run:
     The arguments are those of `run`. `reason` is None while it is not finished, then as in
     `Result`.
 
+    Raises
+    ------
+    CubicCraftError
+        The tolerance is not positive, or max_iterations is no whole number from 1.
+
     Examples
     --------
     >>> import numpy as np

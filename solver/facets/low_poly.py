@@ -73,6 +73,11 @@ def low_poly(
         Pairs of neighbors between which polygons end within a chart too, as at a seam that does not
         go around it.
 
+    Raises
+    ------
+    CubicCraftError
+        As `flatten_facets`.
+
     Examples
     --------
     >>> import numpy as np

@@ -151,6 +151,11 @@ class FrameSequence:
             A new one, of the first mesh or a pose of it.
         max_iterations, tolerance
             Of the first frame, as for `Run`.
+
+        Raises
+        ------
+        CubicCraftError
+            As `Run`.
         """
         self._turns = np.tile(np.eye(3), (len(stylization.rest.V), 1, 1))
         if self.state is None:

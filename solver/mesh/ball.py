@@ -13,6 +13,11 @@ def ball(vertices: int = 700) -> tuple[FloatArray, IntArray]:
     Positions, from the lowest along Z to the highest, and triangles, which face outward; of 4
     vertices at least.
 
+    Raises
+    ------
+    CubicCraftError
+        There are fewer than 4 vertices.
+
     Examples
     --------
     >>> from solver import ball

@@ -69,6 +69,11 @@ def auto_orient(normals: ArrayLike, areas: ArrayLike, form: Polytope | None = No
     Q : (3,3) numpy array
         Rotation that maps a vector into the frame of the form; its rows are the form's axes.
 
+    Raises
+    ------
+    CubicCraftError
+        An argument has another type or shape.
+
     Notes
     -----
     The samples are super-Fibonacci spirals (Alexa, "Super-Fibonacci Spirals: Fast, Low-Discrepancy

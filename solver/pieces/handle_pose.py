@@ -17,6 +17,11 @@ IDENTITY = tuple(np.eye(4).ravel().tolist())
 class HandlePose:
     """How a handle of `piece_of` keeps or moves its vertices.
 
+    Raises
+    ------
+    CubicCraftError
+        The matrix is not one of finite numbers.
+
     Examples
     --------
     >>> import numpy as np

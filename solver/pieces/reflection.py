@@ -80,6 +80,11 @@ class Reflection:
 def flip(axis: int) -> Reflection:
     """Return the reflection along an axis of the object, 0, 1 or 2, about its origin.
 
+    Raises
+    ------
+    CubicCraftError
+        The axis is none of 0, 1 and 2.
+
     Examples
     --------
     >>> from solver import flip

@@ -16,6 +16,12 @@ class ProxyOptions:
 
     The defaults are those of the extension. `PAPER` turns everything off.
 
+    Raises
+    ------
+    CubicCraftError
+        The solidity or the detail is negative or not finite, or an option has another
+        type.
+
     Examples
     --------
     >>> from solver import PAPER, ProxyOptions
