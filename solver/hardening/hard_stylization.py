@@ -16,6 +16,7 @@ from ..stylization import Stylization
 from .face_step import FaceStep
 from .hardening import Hardening, hardening_after, hardening_of
 
+_SEEN = 0.5  # crispness at which borders are straight; what is softer has hardly any
 _LEAST = 0.05  # crispness that can be moved: a move grows by its inverse
 
 
@@ -58,9 +59,10 @@ class HardStylization(Stylization):
             return
         self.hardening = replace(self.hardening, moves=np.zeros_like(self.hardening.moves))
         U, fixed = self.hardening.positions(self._motion.positions), self.setup.pinned
+        share = self.hardening.crispness[:, None]
         straight = U + self.hardening.straightening(U, fixed, may_cross=may_cross)
         self.impose(straight)
-        self.hardening = replace(self.hardening, moves=self._before_mixing(straight - U))
+        self.hardening = replace(self.hardening, moves=(straight - U) / np.maximum(share, _SEEN))
 
     def with_crispness(self, crispness: ArrayLike) -> HardStylization | None:
         """Return one at the same point with another crispness, as of a `Style`.
@@ -123,14 +125,10 @@ class HardStylization(Stylization):
 
     def moved_to(self, places: FloatArray) -> HardStylization:
         """Return one whose shape is at places (n,3) near it, but for what is nearly soft."""
-        other, moves = copy(self), self._before_mixing(places - self.positions)
+        other, share = copy(self), self.hardening.crispness[:, None]
+        moves = np.where(share > _LEAST, (places - self.positions) / np.maximum(share, _LEAST), 0.0)
         other.hardening = replace(self.hardening, moves=self.hardening.moves + moves)
         return other
-
-    def _before_mixing(self, moves):
-        """Return moves (n,3) of the hard shape that move what is between it and the soft one so."""
-        share = self.hardening.crispness[:, None]
-        return np.where(share > _LEAST, moves / np.maximum(share, _LEAST), 0.0)
 
     @property
     def crisp_area(self) -> float:

@@ -51,7 +51,7 @@ def test_operators_that_are_named_are_there():
     assert named <= there, named - there
 
 
-def test_labels_of_the_user_guide_are_those_of_the_panel():
+def test_labels_of_the_user_guide_are_those_of_the_panel(part):
     bpy.ops.mesh.primitive_monkey_add()
     groups = [bpy.context.object.cubic_craft.bl_rna]
     groups += [
@@ -60,8 +60,7 @@ def test_labels_of_the_user_guide_are_those_of_the_panel():
     labels = {"Show Form", "Show Angles"} | {group.name for group in groups}
     for prop in [prop for group in groups for prop in group.properties]:
         labels |= {prop.name} | {item.name for item in getattr(prop, "enum_items", ())}
-    presets = ROOT / "cubic_craft_addon" / "assets" / "presets" / "cubic_craft"
-    labels |= {path.stem.replace("_", " ") for path in presets.glob("*.py")}
+    labels |= {name.replace("_", " ") for name in part("presets.included").INCLUDED}
     named = [
         label
         for page in sorted(GUIDE.glob("*.md"))
