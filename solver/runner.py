@@ -279,11 +279,11 @@ class Run:
         if done < ROUNDS:
             return
         hard.straighten_borders()
-        self._hard_end = hard, self._apart
-        self._begin_at_hard_end(*self._hard_end)
+        self._begin_at_hard_end(hard, self._apart)
 
     def _begin_at_hard_end(self, hard: HardStylization, soft_apart: KeepApart | None) -> None:
-        self.stylization, self._apart = hard, soft_apart
+        self._hard_end = hard, soft_apart
+        self.stylization, self._apart = self._hard_end
         if soft_apart is None:
             self.reason = self._end
         else:

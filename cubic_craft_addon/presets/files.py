@@ -99,7 +99,7 @@ def save(name: str, properties: Any) -> Path:
     if not stem:
         raise CubicCraftError("a preset needs a name")
     taken = {preset.identifier.lower() for preset in presets() if preset.is_included}
-    if stem.lower() in taken:
+    if stem.lower() in {*taken, "custom"}:  # which is shown where no preset fits
         raise CubicCraftError(f'"{name}" is included with CubicCraft; choose another name')
     shown = name.strip().replace("_", " ")
     for preset in presets():

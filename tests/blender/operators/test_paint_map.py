@@ -38,3 +38,12 @@ def test_while_live_runs_the_map_is_that_of_live(monkey, live, begin):
     assert live.live_properties().map_group == monkey.vertex_groups[0].name
     assert not monkey.cubic_craft.map_group
     session.on(live.Event.CANCEL)
+
+
+def test_a_mesh_of_another_file_is_refused_and_nothing_made(monkey, tmp_path):
+    bpy.data.libraries.write(str(tmp_path / "other.blend"), {monkey.data})
+    with bpy.data.libraries.load(str(tmp_path / "other.blend"), link=True) as (there, here):
+        here.meshes = there.meshes
+    monkey.data = here.meshes[0]
+    assert not bpy.ops.cubic_craft.paint_map.poll()
+    assert not monkey.vertex_groups and not monkey.cubic_craft.map_group

@@ -96,8 +96,9 @@ def test_another_name_replaces_no_preset_whose_file_it_shares(files, monkey, nam
 
 
 def test_ours_can_neither_be_replaced_nor_removed(files, monkey):
-    with pytest.raises(RuntimeError, match='"Cubic" is included with CubicCraft'):
-        bpy.ops.cubic_craft.preset_add(name="Cubic")
+    for name in ("Cubic", "Custom"):
+        with pytest.raises(RuntimeError, match=f'"{name}" is included with CubicCraft'):
+            bpy.ops.cubic_craft.preset_add(name=name)
     with pytest.raises(RuntimeError, match="Choose one of your own presets first"):
         bpy.ops.cubic_craft.preset_remove()
     assert [preset.identifier for preset in files.presets()] == OURS

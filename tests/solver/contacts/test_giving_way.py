@@ -92,10 +92,10 @@ def test_parts_may_cross_where_a_round_would_cost_more_style_than_it_saves():
     assert free.pressed is None
 
 
-def crisp_run(V, F):
+def crisp_run(V, F, crispness=1.0):
     """Return a Run to flat sides, at its end, and how much of what was crisp there is left."""
     setup = Setup(rest_mesh(V, F, ProxyOptions(keep_apart=True, refine=False)))
-    style, options = Style(0.4, crispness=1.0), SolverOptions(keep_rotation=True)
+    style, options = Style(0.4, crispness=crispness), SolverOptions(keep_rotation=True)
     made = Run(Stylization(setup, style, options=options))
     made.complete()
     return made, made.hard.crisp_area / made._hard_end[0].crisp_area
@@ -115,10 +115,13 @@ def test_what_crosses_once_sides_are_flat_is_pushed_apart_and_stays_crisp(make):
 
 
 def test_parts_may_cross_where_they_would_else_stay_soft():
-    belt = ring(1.1, 0.08, 0.0, count=32, around=8)
-    made, share = crisp_run(*joined(uv_sphere(16, 8), belt))
+    mesh = joined(uv_sphere(16, 8), ring(1.1, 0.08, 0.0, count=32, around=8))
+    made, share = crisp_run(*mesh)
     result = made.result()
     assert share > 0.99 and result.crossings == result.pressed > 0
+    softer = made.with_crispness(0.4)
+    softer.complete()
+    assert softer.result() == crisp_run(*mesh, 0.4)[0].result(), "that before is not the measure"
 
 
 def ring(radius, thickness, height, count=40, around=12):
