@@ -11,6 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..aliases import FloatArray
+from ..errors import CubicCraftError
+from ..optional_packages import optional_package
+
+MANY = 100
+"""corners: up to so many the best ear is cut off each time, which takes their number squared"""
+STRAIGHT = 1e-6
+"""sine of the angle at a corner that is on a straight edge"""
+BEND = 1e-4
+"""how far the middle of a straight edge with corners on it is bent inward, of its length"""
 
 
 def triangulate(V: FloatArray, faces: NDArray[Any]) -> NDArray[Any]:
@@ -18,7 +27,8 @@ def triangulate(V: FloatArray, faces: NDArray[Any]) -> NDArray[Any]:
 
     `V`: (n,3). `faces`: (k,s) int, polygons with s corners each, which may be concave. They need
     not be planar. Returns (k * (s - 2), 3) int array, in the order of the polygons, and with their
-    orientation; none for s less than 3.
+    orientation; none for s less than 3. Raises CubicCraftError: a concave one has more than `MANY`
+    corners, and mapbox-earcut is not installed.
     """
     count, size = faces.shape
     if size <= 3:
@@ -30,7 +40,9 @@ def triangulate(V: FloatArray, faces: NDArray[Any]) -> NDArray[Any]:
     fans = np.concatenate([fans, faces[:, inner + 1, None]], axis=-1)
     if size > 4:
         for polygon in np.flatnonzero(~_is_fan(V, fans)):
-            fans[polygon] = faces[polygon][_clip_ears(V[faces[polygon]])]
+            corners = V[faces[polygon]]
+            clipped = _clip_ears(corners) if size <= MANY else _clip_many_ears(corners)
+            fans[polygon] = faces[polygon][clipped]
     return fans.reshape(-1, 3)
 
 
@@ -54,8 +66,7 @@ def _is_fan(V, fans):
 def _clip_ears(points):
     """Return the triangles (s-2,3) of a polygon (s,3): its best ear is cut off until none is left.
 
-    That takes the number of corners squared: of 5,000, three seconds. A polygon that intersects
-    itself gets triangles as well, but not good ones.
+    A polygon that intersects itself gets triangles as well, but not good ones.
     """
     flat = _in_plane(points)
     left, triangles = np.arange(len(flat)), []
@@ -71,6 +82,47 @@ def _clip_ears(points):
         triangles.append((before[ear], left[ear], after[ear]))
         left = np.delete(left, ear)
     return np.array([*triangles, left])
+
+
+def _clip_many_ears(points):
+    """Return the triangles (s-2,3) of a polygon (s,3) with many corners, in near to linear time.
+
+    One that is not simple, of which not all corners are used, gets a fan.
+    """
+    size = len(points)
+    earcut = optional_package("mapbox_earcut")
+    if earcut is None:
+        raise CubicCraftError(
+            f"a face has {size} corners; for more than {MANY}, install mapbox-earcut"
+        )
+    flat = _bent_inward(_in_plane(points))
+    triangles = earcut.triangulate_float64(flat, np.array([size], np.uint32))
+    triangles = triangles.reshape(-1, 3).astype(np.int64)
+    if len(triangles) != size - 2:
+        inner = np.arange(1, size - 1)
+        return np.stack([np.zeros_like(inner), inner, inner + 1], axis=1)
+    a, b, c = (flat[triangles[:, corner]] for corner in range(3))
+    return triangles if _cross(b - a, c - a).sum() > 0.0 else triangles[:, ::-1]
+
+
+def _bent_inward(flat):
+    """Return a polygon (s,2), counter-clockwise, whose straight edges are parabolas.
+
+    So no corner lies on a line between others, where it would be left out, and each is joined to
+    one on the other side, not to its neighbors only.
+    """
+    before, after = flat - np.roll(flat, 1, axis=0), np.roll(flat, -1, axis=0) - flat
+    lengths = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
+    is_straight = np.abs(_cross(before, after)) <= STRAIGHT * lengths
+    is_straight &= (before * after).sum(axis=1) >= 0.0
+    (ends,) = np.nonzero(~is_straight)
+    if len(ends) in (0, len(flat)):
+        return flat
+    edge = np.searchsorted(ends, np.arange(len(flat)), side="right") - 1  # -1 is the last
+    first, last = ends[edge], ends[(edge + 1) % len(ends)]
+    t = ((np.arange(len(flat)) - first) % len(flat)) / ((last - first - 1) % len(flat) + 1)
+    across = (flat[last] - flat[first]) @ [[0.0, 1.0], [-1.0, 0.0]]
+    return flat + (4.0 * BEND * t * (1.0 - t))[:, None] * across
 
 
 def _in_plane(points):

@@ -84,7 +84,7 @@ def test_it_can_be_run_as_a_module():
 
 def test_it_says_what_it_needs_and_its_licence():
     needed = {re.match(r"[\w-]+", line)[0] for line in requires("cubic-craft") if ";" not in line}
-    assert needed == {"numpy", "scipy", "trimesh", "threadpoolctl"}
+    assert needed == {"numpy", "scipy", "trimesh", "mapbox-earcut", "threadpoolctl"}
     metadata = distribution("cubic-craft").metadata
     assert metadata["License-Expression"] == "GPL-3.0-or-later"
     licence = INSTALLED.parent / f"cubic_craft-{version('cubic-craft')}.dist-info"
@@ -93,7 +93,7 @@ def test_it_says_what_it_needs_and_its_licence():
 
 
 def test_what_the_fast_extra_lists_is_all_that_is_optional():
-    lacking = ("fast", "threadpoolctl")  # the extension may be without the last
+    lacking = ("fast", "earcut", "threadpoolctl")  # the extension may be without the last two
     may_lack = [line for line in requires("cubic-craft") if any(word in line for word in lacking)]
     listed = {re.match(r"[\w-]+", line)[0] for line in may_lack}
     asked = set()
