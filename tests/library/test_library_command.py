@@ -86,7 +86,9 @@ def test_options_are_those_of_the_library(given, tmp_path):
     result = quick(V, F, **OPTIONS[given])
     assert ("NOT converged" in lines[0]) == ("--max-iterations" in given)
     points = load(tmp_path / "cubic.obj").vertices
-    assert np.allclose(points, result.positions, atol=1e-5)
+    # the file has rounded numbers: of a refined mesh, other vertices may be the opposite ones
+    atol = 1e-4 if "refine" in given else 1e-5
+    assert np.allclose(points, result.positions, atol=atol)
     is_other = np.abs(points - quick(V, F).positions).max() > 1e-4
     assert is_other == (given != "--together off"), "a blob has one part"
 

@@ -17,7 +17,8 @@ PLACES = {
     "Turned": Matrix.LocRotScale((1.6, 0.2, 0.3), Euler((0.4, -0.9, 2.0)), (0.6, 0.6, 0.6)),
     "Mirrored": Matrix.LocRotScale((-1.5, 0.1, 0.2), Euler((0.1, 0.3, -0.2)), (-0.5, 0.8, 0.6)),
 }
-# Of each object in its own coordinates: a vertex is where float32 puts it, which borders amplify.
+# Of each object in its own coordinates: a vertex is where float32 puts it, and its opposite ones
+# may be others.
 ROUNDING = 2e-4
 
 
