@@ -24,7 +24,7 @@ long, once on each machine, and then an iteration a twentieth less"""
 
 
 class _Arguments(NamedTuple):
-    """What the kernel `local_step` is called with between the positions and the `FaceTables`."""
+    """What the kernel `local_step` is called with between the positions and the `face_tables`."""
 
     indptr: Any
     indices: Any
