@@ -2,8 +2,7 @@
 """The local step in Taichi, on the CPU or a GPU. See `NumpyLocalStep` for the interface."""
 
 from functools import cache, partial
-from types import SimpleNamespace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from .arrays import arrays_for
 from .engine_lock import alone
 from .face_tables import face_tables
 from .numpy_local_step import area_scale, local_captured, local_cubeness
+from .rows import HostRows
 from .warmup import warm_up
 
 LANES_FROM = 20_000
@@ -23,13 +23,43 @@ LANES_FROM = 20_000
 long, once on each machine, and then an iteration a twentieth less"""
 
 
+class _Arguments(NamedTuple):
+    """What the kernel `local_step` is called with between the positions and the `face_tables`."""
+
+    indptr: Any
+    indices: Any
+    gather: Any
+    weights: Any
+    normals: Any
+    area_scale: Any
+    lam: Any
+    Q: Any
+    q_stride: int
+    R: Any
+    subgradients: Any
+    energies: Any
+    certified: Any
+    captured: Any
+
+
 class TaichiLocalStep:
     """Rotations from positions, and the right-hand side of the global step from rotations.
 
     `rest`, `lam`, `Q`, `options`, `form`, `captured`, `normals`: as in `NumpyLocalStep`.
-    `precision`: "f64" or "f32", by default f64 where the device has it; `real` is NumPy's type for
-    it. `arrays`: HostArrays or DeviceArrays, where the arrays of the run lie. `compile_seconds`:
-    time to compile the kernels or to load them from the cache; 0 after the first use.
+    `precision`: by default f64 where the device has it.
+
+    Attributes
+    ----------
+    device : str
+        Such as "taichi-cpu".
+    resolution : float
+        As in `NumpyLocalStep`.
+    precision, real : str and dtype
+        The precision, "f64" or "f32", and NumPy's type for it.
+    arrays : HostArrays or DeviceArrays
+        Where the arrays of the run lie. On a GPU they stay there.
+    compile_seconds : float
+        Time spent compiling the kernels or loading them from the cache; 0 after the first use.
     """
 
     @alone
@@ -70,16 +100,16 @@ class TaichiLocalStep:
         self._rest_problem = LocalProblem(nothing, normals, all_Q, lam, form, captured)
         self._normal_weight = self._rest_problem.weights(rest.areas)
         self._arguments = self._make_arguments(Q)
-        self._in_order = tuple(vars(self._arguments).values())
         self._tables = ()
         if not has_lanes:
             self._tables = face_tables(form.faces, self._keep, self.arrays.keep)
         self._scatter = self._keep(rest.matrices.scatter)
         self._rhs = np.empty((n, 3), real)
+        self._rows = self._make_rows()
         self._sum_on_device = None
         self.compile_seconds = warm_up(
             [
-                (self._kernels.local_step, (self._rhs, *self._in_order, *self._tables)),
+                (self._kernels.local_step, (self._rhs, *self._arguments, *self._tables)),
                 (self._kernels.right_hand_side, self._right_hand_side_arguments()),
             ]
         )
@@ -88,11 +118,10 @@ class TaichiLocalStep:
         return self.arrays.keep(np.ascontiguousarray(values, dtype=self.real))
 
     def _make_arguments(self, Q):
-        """Return what the kernel `local_step` takes between positions and tables, in its order."""
         m, rest, keep = self._rest.matrices, self._rest, self._keep
         identity = np.tile(np.eye(3), (len(rest.V), 1, 1))
         captured = self._rest_problem.captured
-        return SimpleNamespace(
+        return _Arguments(
             indptr=self.arrays.keep(m.indptr),
             indices=self.arrays.keep(m.indices),
             gather=keep(m.gather),
@@ -108,6 +137,17 @@ class TaichiLocalStep:
             certified=self.arrays.keep(np.zeros(len(rest.V), np.int32)),
             captured=keep(np.zeros((1, 4)) if captured is None else captured),  # else never read
         )
+
+    def _make_rows(self):
+        of = self._arguments
+        outputs = of.R, of.subgradients, of.energies
+        if not self.arrays.is_resident:
+            return HostRows(self._rest.matrices, area_scale(self._rest.areas), *outputs)
+        from .taichi_rows import DeviceRows
+
+        edges = of.indptr, of.indices, of.gather, of.weights
+        width = self._rest_problem.form.width
+        return DeviceRows(self.precision, width, *edges, of.area_scale, *outputs)
 
     @property
     def R(self):  # noqa: N802 - as in `NumpyLocalStep`
@@ -156,7 +196,7 @@ class TaichiLocalStep:
         self.start_device()
         if not self.arrays.is_resident:
             U = np.ascontiguousarray(U, dtype=self.real)
-        self._kernels.local_step(U, *self._in_order, *self._tables)
+        self._kernels.local_step(U, *self._arguments, *self._tables)
         if self._sum_on_device is not None:
             return self._summed(U, self._sum_on_device)
         rows = self._uncertified()
@@ -170,6 +210,7 @@ class TaichiLocalStep:
         return arap, sum_parts(self._normal_weight * cost)
 
     def _summed(self, U, sum_on_device):
+        """Return the energies where kernels sum them up."""
         sum_on_device()
         arap, cubic, uncertified = self._sums.T
         if uncertified.any():
@@ -183,24 +224,15 @@ class TaichiLocalStep:
         return np.flatnonzero(self.arrays.fetch(self._arguments.certified) == 0)
 
     def _solve_by_admm(self, U, rows):
-        """Find the rotations of some rows that the kernel has left as they were, in NumPy."""
-        of, arrays = self._arguments, self.arrays
-        kept = of.R, of.subgradients, of.energies
-        R, states, energies = map(arrays.fetch, kept)
-        U = arrays.fetch(U).astype(np.float64, copy=False)
-        scale = area_scale(self._rest.areas)[rows]
-        S = self._rest.matrices.covariances(U, rows) / scale[:, None, None]
-        last, last_s = R[rows].astype(np.float64), states[rows]
+        """Find the rotations of some rows that the kernel has left as they were."""
+        S, last, last_s = self._rows.take(U, rows)
         problem = self._rest_problem.part(rows).with_covariances(S)
-        found, s = admm_rotations(problem, last, last_s, self._options)
-        is_worse = problem.is_worse(found, last)  # so that no iteration raises the energy
-        found = np.where(is_worse[:, None, None], last, found)
-        fit, cost = problem.energy_terms(found)
-        R[rows], states[rows] = found, np.where(is_worse[:, None], last_s, s)
-        energies[rows, 1:] = np.stack([fit * scale, cost], axis=1)
-        if arrays.is_resident:
-            for there, values in zip(kept, (R, states, energies), strict=True):
-                arrays.put(there, values)
+        R, s = admm_rotations(problem, last, last_s, self._options)
+        is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
+        R = np.where(is_worse[:, None, None], last, R)
+        s = np.where(is_worse[:, None], last_s, s)
+        fit, cost = problem.energy_terms(R)
+        self._rows.put(rows, R, s, fit * area_scale(self._rest.areas[rows]), cost)
 
     @alone
     def right_hand_side(self):
