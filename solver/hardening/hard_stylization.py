@@ -57,8 +57,7 @@ class HardStylization(Stylization):
         """
         if self.rest.is_cage:
             return
-        self.hardening = replace(self.hardening, moves=np.zeros_like(self.hardening.moves))
-        U, fixed = self.hardening.positions(self._motion.positions), self.setup.pinned
+        U, fixed = self.hardening.mixed(self._motion.positions), self.setup.pinned
         share = self.hardening.crispness[:, None]
         straight = U + self.hardening.straightening(U, fixed, may_cross=may_cross)
         self.impose(straight)

@@ -121,9 +121,13 @@ class Hardening:
         )
         return rest.along_edges(moves)
 
+    def mixed(self, U):
+        """Return what lies between the soft shape and the hard one U (n,3), borders as they are."""
+        return self.soft + self.crispness[:, None] * (U - self.soft)
+
     def positions(self, U):
-        """Return the positions (n,3) between the soft shape and the hard one U (n,3)."""
-        return self.soft + self.crispness[:, None] * (U + self.moves - self.soft)
+        """Return the positions (n,3): what is `mixed`, with straight borders."""
+        return self.mixed(U + self.moves)
 
     def between(self, R):
         """Return the rotations (n,3,3) between the soft shape and the hard one R (n,3,3)."""
