@@ -11,7 +11,7 @@ three sides meet, or one ends, and where triangles would become slivers or cross
 import numpy as np
 import scipy.sparse as sp
 
-from ..contacts.crossings import Watched, boxes
+from .new_crossings import NewCrossings
 
 STEPS = 30
 FORWARD, BACKWARD = 0.5, -0.53
@@ -70,17 +70,12 @@ def straightening(
     of_triangles = np.arange(len(F)) if faces is None else faces
     _, polygon = np.unique(of_triangles[sided], return_inverse=True)
     _, whole = _seen(U, F[sided], directions[sided], polygon)
-    watched = None if may_cross else _watched(U, U + moves, F, beside, faces)
-    before = np.empty((0, 2), np.intp) if watched is None else watched.crossings(U)
+    crossings = None if may_cross else NewCrossings(U, U + moves, F, beside, faces)
     for number in range(_ROUNDS):
         X = U + moves
         own, of_polygon = _seen(X, F[sided], directions[sided], polygon)
         thin = sided[(of_polygon < LEAST * whole) | (own < -OVERLAP * whole)]
-        bad = thin
-        if watched is not None:
-            crossing = watched.crossings(X)
-            is_old = np.isin(_keys(crossing, len(F)), _keys(before, len(F)))
-            bad = np.concatenate([thin, crossing[~is_old].ravel()])
+        bad = thin if crossings is None else np.concatenate([thin, crossings.at(X)])
         if not len(bad):
             break
         moves[F[bad]] *= 0.5 if number < _ROUNDS - 2 else 0.0
@@ -123,26 +118,3 @@ def _seen(U, F, directions, polygon):
     a, b, c = U[F].swapaxes(0, 1)
     own = np.einsum("mj,mj->m", np.cross(b - a, c - a), directions)
     return own, np.bincount(polygon, own)[polygon]
-
-
-def _watched(U, X, F, is_moved, faces):
-    """Return what may come to cross where triangles (m,) bool go from U (n,3) to X (n,3).
-
-    Not polygons that share a corner, as triangles do not: how they are split is not seen.
-    """
-    (low, high), (other_low, other_high) = boxes(U, F), boxes(X, F)
-    low, high = np.minimum(low, other_low), np.maximum(high, other_high)
-    if faces is None:
-        return Watched(F, low, high, is_moved)
-    corners = sp.csr_matrix((np.ones(F.size, bool), (np.repeat(faces, 3), F.ravel())))
-
-    def counts(pairs):
-        one, other = (corners[faces[each]] for each in pairs.T)
-        return one.multiply(other).getnnz(axis=1) == 0
-
-    return Watched(F, low, high, is_moved, counts)
-
-
-def _keys(pairs, m):
-    """Return a number for each pair (k,2) of triangles."""
-    return pairs[:, 0] * m + pairs[:, 1]

@@ -50,18 +50,22 @@ class HardStylization(Stylization):
         self._local.give_back_volume(self._motion.positions)
 
     def straighten_borders(self, *, may_cross: bool = False) -> None:
-        """Make the borders of the sides straight where they are now, between soft and hard.
+        """Make sides that are nearly flat flat, and the borders of all sides straight.
 
-        Not those of a cage, which follow its edges: it could not follow them elsewhere. Where they
-        `may_cross` others, that is not looked for.
+        The borders where they are now, between soft and hard. Not those of a cage, which follow its
+        edges: it could not follow them elsewhere. Where they `may_cross` others, that is not looked
+        for.
         """
         if self.rest.is_cage:
             return
-        U, fixed = self.hardening.mixed(self._motion.positions), self.setup.pinned
+        fixed, hard = self.setup.pinned, self._motion.positions
+        self.hardening = self.hardening.flattened(hard, fixed, may_cross=may_cross)
+        U = self.hardening.positions(hard)
         share = self.hardening.crispness[:, None]
         straight = U + self.hardening.straightening(U, fixed, may_cross=may_cross)
         self.impose(straight)
-        self.hardening = replace(self.hardening, moves=(straight - U) / np.maximum(share, _SEEN))
+        moves = self.hardening.moves + (straight - U) / np.maximum(share, _SEEN)
+        self.hardening = replace(self.hardening, moves=moves)
 
     def with_crispness(self, crispness: ArrayLike) -> HardStylization | None:
         """Return one at the same point with another crispness, as of a `Style`.

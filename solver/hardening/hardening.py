@@ -2,6 +2,7 @@
 """What a soft cubic shape becomes as its sides are made flat and its details are put back."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -13,6 +14,8 @@ from ..rotation_fit import fit_rotations, orthonormalize
 from .base import base_of
 from .borders import straightening
 from .face_step import Target
+from .new_crossings import NewCrossings
+from .planes import falling, flattening
 from .rims import FREE, rims_and_flats
 from .sides import CLEAR, NO_SIDE, STEADY, sides_of
 
@@ -41,6 +44,12 @@ WHOLLY = 0.4
 """of that distance, within which they do"""
 DRAWN = 0.2
 """cubeness from which on the crispness counts fully"""
+FLAT = 0.5, 0.9
+"""crispness from which on what is nearly flat begins to go to its plane, and is there, wholly"""
+STILL = 0.005, 0.055
+"""in the unit box: how far around what would come to cross nothing goes to planes, and all does"""
+TRIES, GROWING = 6, 1.5
+"""times, and how much farther each time"""
 _POINT = 1e-6  # extent in the unit box; what has none is held all the same
 _ORTHONORMALIZATIONS = 4
 
@@ -55,22 +64,29 @@ class Hardening:
     """(n,3) the same with the strength of details asked for"""
     rotations: FloatArray
     """(n,3,3) of the soft shape"""
-    crispness: FloatArray
-    """(n,) how far the vertices go from there to the hard shape, from 0 to 1"""
+    asked: FloatArray
+    """(n,) how far the vertices are to go from there to the hard shape, from 0 to 1"""
     firm: FloatArray
     """(n,) how far at a crispness of 1: less where they are thinner than details, but for plates,
     and where they were softened"""
+    flat: FloatArray
+    """(n,) how far they belong to planes, from 0 to 1"""
     target: Target
     side: IntArray
     """(m,) int"""
     facing: FloatArray
     """(m,3) as `sides_of` returns them"""
     moves: FloatArray
-    """(n,3) of the vertices of the hard shape, which make the borders of its sides straight"""
+    """(n,3) of the vertices of the hard shape, to planes and to straight borders"""
+
+    @cached_property
+    def crispness(self):
+        """(n,) how far the vertices go to the hard shape, from 0 to 1: what is flat, wholly."""
+        return self.asked + (1.0 - falling(self.asked, FLAT)) * self.flat * (1.0 - self.asked)
 
     def with_crispness(self, style):
         """Return the same with the crispness of another SolvedStyle; what was soft stays so."""
-        return replace(self, crispness=self.firm * _crispness_of(style))
+        return replace(self, asked=self.firm * _crispness_of(style))
 
     def followed(self, solved, R):
         """Return the same beside another soft shape (n,3), with rotations (n,3,3)."""
@@ -98,7 +114,37 @@ class Hardening:
         share[vertices] = 1.0
         soft = self.soft + share[:, None] * (self.solved - self.soft)
         left = 1.0 - share
-        return replace(self, soft=soft, crispness=left * self.crispness, firm=left * self.firm)
+        parts = {name: left * getattr(self, name) for name in ("asked", "firm", "flat")}
+        return replace(self, soft=soft, **parts)
+
+    def flattened(self, U, fixed, *, may_cross=False):
+        """Return the same with the moves of the hard shape U (n,3) to the planes of its sides.
+
+        Vertices `fixed` stay, and what would come to cross, as around eyes, stays with all around
+        it. Where things `may_cross`, that is not looked for.
+        """
+        base, rest = self.target.base, self.target.base.rest
+        of_sides = self.side, self.target.directions, self.target.heights
+        moves, flat = flattening(U, rest.F, base.graph, *of_sides)
+        moves *= 1.0 - falling(self.asked, FLAT)[:, None]
+        share = np.ones(len(U))
+        share[fixed] = 0.0
+        before = replace(self, flat=np.zeros_like(flat), moves=np.zeros_like(moves)).positions(U)
+        F, crossings = rest.F if rest.unrefined is None else rest.unrefined, None
+        for number in range(TRIES):
+            found = replace(self, flat=share * flat, moves=share[:, None] * moves)
+            X = found.positions(U)
+            is_moved = (before != X).any(axis=1)[F].any(axis=1)
+            if may_cross or not is_moved.any():
+                return found
+            if crossings is None:
+                crossings = NewCrossings(before, X, F, is_moved, rest.faces)
+            crossing = crossings.at(X)
+            if not len(crossing):
+                return found
+            far, _ = KDTree(before[np.unique(F[crossing])]).query(before)
+            share = np.minimum(share, 1.0 - falling(far, np.multiply(STILL, GROWING**number)))
+        return found
 
     def straightening(self, U, fixed, *, may_cross=False):
         """Return the `straightening` of the end U (n,3).
@@ -166,7 +212,7 @@ def hardening_of(stylization, before=None):
     hold = hold_of(rest) * (1.0 - (1.0 - FREE) * rim)
     found = _raised(stylization, base, thick, sides, hold, plate)
     firm = np.maximum(thick, plate)
-    return replace(found, firm=firm, crispness=firm * _crispness_of(stylization.style))
+    return replace(found, firm=firm, asked=firm * _crispness_of(stylization.style))
 
 
 def hardening_after(last, stylization):
@@ -218,8 +264,9 @@ def _raised(stylization, base, firm, sides, hold, plate):
         stylization.impose(soft)
     heights = strength * base.heights
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold, slides=plate)
-    crispness, still = firm * _crispness_of(style), np.zeros_like(soft)
-    return Hardening(solved, soft, R, crispness, firm, target, side, facing, still)
+    asked, still = firm * _crispness_of(style), np.zeros_like(soft)
+    flat = np.zeros(len(soft))
+    return Hardening(solved, soft, R, asked, firm, flat, target, side, facing, still)
 
 
 def _crispness_of(style):

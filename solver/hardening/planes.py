@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sides that are nearly flat become flat.
+
+What holds the hard shape near the soft one, and the stiffness of a side along itself, leave a
+shallow bulge, and edges bow. So a side whose places are all close to one plane, upright to its
+direction or aslant, goes to that: the plane of least squares, without its details. Its places go
+along the normal, and where sides meet, to where their planes do. What an edge moves along a side
+dies away toward the middle of it.
+"""
+
+import numpy as np
+from scipy.spatial import KDTree
+
+NEAR = 0.01, 0.016
+"""distance from the plane, the root of its mean square, relative to the root of the area: a side
+that is nearer than the first goes to its plane, and one beyond the second does not"""
+FEWEST = 4
+"""triangles of a side; fewer are frayed"""
+_FIRM = 1e3  # weight of the planes of a place beside that of staying there
+_ALIKE = 0.999  # length of the mean of directions that are one
+_NEAREST = 6  # places of edges that take another along
+_FAR = 10.0  # between regions, so that none is nearest to those of another
+_LEAST = 1e-12
+
+
+def flattening(U, F, graph, side, directions, heights):
+    """Return how far vertices (n,3) have to move, and how far they belong to planes (n,), 0 to 1.
+
+    Parameters
+    ----------
+    U, F : arrays
+        Positions (n,3) of the hard shape, and triangles (m,3).
+    graph : FaceGraph
+        Of these.
+    side : (m,) int array
+        Of the triangles, negative for those without.
+    directions : (m,3) array
+        That the sides face.
+    heights : (n,) array
+        Of the details, above the planes.
+    """
+    n, is_same = len(U), (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
+    count, region = graph.regions(is_same)
+    area = np.bincount(region, graph.areas, count)
+    facing, has_one = _facing(directions, graph.areas, region, area)
+    has_one &= np.bincount(region, minlength=count) >= FEWEST
+    has_one[region[side < 0]] = False
+    kept = np.flatnonzero(has_one[region])
+    own = region[kept]
+    centers = U[F[kept]].mean(axis=1) - heights[F[kept]].mean(axis=1)[:, None] * facing[own]
+    normals, offsets, shares = _planes(centers, graph.areas[kept], own, facing, area)
+    of, at = np.divmod(np.unique(np.repeat(own, 3) * n + F[kept].ravel()), n)
+    away = offsets[of] - _dots(normals[of], U[at] - heights[at, None] * facing[of])
+    moves, flat = _to_planes(n, at, normals[of], shares[of], away)
+    is_edge = np.bincount(at, minlength=n)[at] > 1
+    if is_edge.any() and not is_edge.all():
+        one, other = region[graph.one[~is_same]], region[graph.other[~is_same]]
+        around = sum(np.bincount(x, graph.length[~is_same], count) for x in (one, other))
+        reach = area / np.maximum(around, _LEAST)
+        places = np.concatenate([U[at], _FAR * of[:, None]], axis=1)
+        _take_along(moves, places, at, is_edge, normals[of], reach[of])
+    return moves, flat
+
+
+def _facing(directions, areas, region, area):
+    """Return the mean directions (r,3) of regions, as unit vectors, and whether they have one."""
+    sums = [np.bincount(region, areas * x, len(area)) for x in directions.T]
+    means = np.stack(sums, axis=1) / np.maximum(area, _LEAST)[:, None]
+    length = np.linalg.norm(means, axis=1)
+    return means / np.maximum(length, _LEAST)[:, None], length > _ALIKE
+
+
+def _planes(P, areas, region, facing, area):
+    """Return unit normals (r,3), offsets (r,) and shares (r,) of the planes of regions.
+
+    `P`: (k,3), the places of triangles with `areas` (k,) in a `region` (k,). `facing`: (r,3).
+    `area`: (r,).
+    """
+    count = len(area)
+    total = np.maximum(np.bincount(region, areas, count), _LEAST)
+
+    def mean(values):
+        return np.bincount(region, areas * values, count) / total
+
+    across = np.cross(facing, np.eye(3)[np.abs(facing).argmin(axis=1)])
+    across /= np.maximum(np.linalg.norm(across, axis=1), _LEAST)[:, None]
+    axes = across, np.cross(facing, across), facing
+    middle = np.stack([mean(values) for values in P.T], axis=1)
+    x, y, z = (_dots(axis[region], P - middle[region]) for axis in axes)
+    xx, xy, yy, xz, yz = mean(x * x), mean(x * y), mean(y * y), mean(x * z), mean(y * z)
+    least = 1e-3 * (xx + yy) + _LEAST  # of a strip, the slope across it is not clear
+    xx, yy = xx + least, yy + least
+    a, b = np.stack([yy * xz - xy * yz, xx * yz - xy * xz]) / (xx * yy - xy * xy)
+    left = z - a[region] * x - b[region] * y
+    shares = falling(np.sqrt(mean(left * left) / np.maximum(area, _LEAST)), NEAR)
+    normals = facing - a[:, None] * axes[0] - b[:, None] * axes[1]
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), _LEAST)[:, None]
+    return normals, _dots(normals, middle), shares
+
+
+def _to_planes(n, at, normals, shares, away):
+    """Return the moves (n,3) of vertices at (k,) to planes, and the largest share (n,) of each."""
+    A, b, flat = np.tile(np.eye(3), (n, 1, 1)), np.zeros((n, 3)), np.zeros(n)
+    weighted = _FIRM * shares[:, None] * normals
+    np.add.at(A, at, weighted[:, :, None] * normals[:, None, :])
+    np.add.at(b, at, (shares * away)[:, None] * weighted)
+    np.maximum.at(flat, at, shares)
+    return np.linalg.solve(A, b[:, :, None])[:, :, 0], flat
+
+
+def _take_along(moves, places, at, is_edge, normals, reach):
+    """Move what is within regions along them, as far as their edges nearby are moved.
+
+    `places`: (k,4), of the vertices at (k,), and their region. `reach`: (k,), where that ends.
+    """
+    inside, edge = np.flatnonzero(~is_edge), at[is_edge]
+    count = min(_NEAREST, len(edge))
+    distance, nearest = KDTree(places[is_edge]).query(places[inside], count, workers=-1)
+    distance, nearest = distance.reshape(-1, count), nearest.reshape(-1, count)
+    weight = 1.0 / np.maximum(distance, _LEAST) ** 2
+    near = falling(distance[:, 0] / np.maximum(reach[inside], _LEAST), (0.0, 1.0))
+    weight *= (near / weight.sum(axis=1))[:, None]
+    along = np.einsum("kj,kji->ki", weight, moves[edge][nearest])
+    along -= _dots(along, normals[inside])[:, None] * normals[inside]
+    np.add.at(moves, at[inside], along)
+
+
+def falling(x, ends):
+    """Return 1 for what is below the first end, 0 beyond the second, and smoothly between."""
+    t = np.clip((ends[1] - x) / (ends[1] - ends[0]), 0.0, 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
+def _dots(a, b):
+    return np.einsum("kj,kj->k", a, b)
