@@ -19,15 +19,7 @@ class NewCrossings:
         self._m = len(F)
         (low, high), (other_low, other_high) = boxes(U, F), boxes(X, F)
         low, high = np.minimum(low, other_low), np.maximum(high, other_high)
-        counts = None
-        if faces is not None:
-            corners = sp.csr_matrix((np.ones(F.size, bool), (np.repeat(faces, 3), F.ravel())))
-
-            def counts(pairs):
-                one, other = (corners[faces[each]] for each in pairs.T)
-                return one.multiply(other).getnnz(axis=1) == 0
-
-        self._watched = Watched(F, low, high, is_moved, counts)
+        self._watched = Watched(F, low, high, is_moved, None if faces is None else _apart(faces, F))
         self._before = self._keys(self._watched.crossings(U))
 
     def at(self, X):
@@ -37,3 +29,14 @@ class NewCrossings:
 
     def _keys(self, pairs):
         return pairs[:, 0] * self._m + pairs[:, 1]
+
+
+def _apart(faces, F):
+    """Return what maps pairs of triangles (k,2) to a mask (k,) of those whose polygons are apart."""
+    corners = sp.csr_matrix((np.ones(F.size, bool), (np.repeat(faces, 3), F.ravel())))
+
+    def are_apart(pairs):
+        one, other = (corners[faces[each]] for each in pairs.T)
+        return one.multiply(other).getnnz(axis=1) == 0
+
+    return are_apart
