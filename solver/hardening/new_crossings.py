@@ -32,7 +32,7 @@ class NewCrossings:
 
 
 def _apart(faces, F):
-    """Return what maps pairs of triangles (k,2) to a mask (k,) of those whose polygons are apart."""
+    """Return what maps pairs of triangles (k,2) to whether (k,) their polygons are apart."""
     corners = sp.csr_matrix((np.ones(F.size, bool), (np.repeat(faces, 3), F.ravel())))
 
     def are_apart(pairs):
