@@ -201,13 +201,13 @@ def test_halves_stay_mirror_images():
 
 def test_a_share_is_between_the_soft_and_the_hard_shape():
     V, F = shapes.blob(3)
-    soft, half, hard = (
+    soft, quarter, half, hard = (
         run(
             Stylization(Setup(rest_mesh(V, F, PAPER)), Style(0.6, crispness=c), options=KEPT)
         ).positions
-        for c in (0.0, 0.5, 1.0)
+        for c in (0.0, 0.25, 0.5, 1.0)
     )
-    off = np.linalg.norm(half - 0.5 * (soft + hard), axis=1)
+    off = np.linalg.norm(quarter - 0.5 * (soft + half), axis=1)
     assert np.quantile(off, 0.8) < 1e-5, "but for borders, each of which is straight"
     assert off.max() < 0.07
     assert np.abs(hard - soft).max() > 0.02

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sides that are nearly flat: flat, whatever held them."""
+
+import numpy as np
+import pytest
+from facing import share_facing
+from proxy_shapes import uv_sphere
+from shapes import sheet
+
+from solver import Run, Setup, SolverOptions, Style, Stylization, rest_mesh
+from solver.hardening.planes import flattening
+from solver.mesh.face_graph import FaceGraph
+
+
+def bulging(bulge, slope=0.3, n=12):
+    """Return a ridge of two sides (n,3), (m,3) that rise by a slope and bulge, and the sides (m,).
+
+    `bulge`: (2,), how far the middle of each is above its plane, relative to its width.
+    """
+    V, F = sheet(n + 1)
+    x, y = V[:, 0], V[:, 1]
+    side = (V[F, 0].mean(axis=1) > 0.5).astype(np.int64)
+    across = np.abs(x - 0.5)
+    up = np.sin(2.0 * np.pi * across) * np.sin(np.pi * y)
+    V[:, 2] = -slope * across + 0.5 * np.where(x > 0.5, bulge[1], bulge[0]) * up
+    return V, F, side
+
+
+def flattened(V, F, side, heights=None):
+    up = np.tile([0.0, 0.0, 1.0], (len(F), 1))
+    heights = np.zeros(len(V)) if heights is None else heights
+    return flattening(V, F, FaceGraph(V, F), side, up, heights)
+
+
+def from_planes(U, F, side):
+    """Return the largest distance of the vertices of each side from its plane of least squares."""
+    off = []
+    for number in range(2):
+        X = U[np.unique(F[side == number])]
+        X = X - X.mean(axis=0)
+        off.append(np.abs(X @ np.linalg.svd(X, full_matrices=False)[2][-1]).max())
+    return np.array(off)
+
+
+def test_a_side_aslant_keeps_its_slope_and_loses_its_bulge():
+    V, F, side = bulging((0.03, 0.03))
+    moves, flat = flattened(V, F, side)
+    assert flat.min() > 0.99
+    before, after = (from_planes(U, F, side) for U in (V, V + moves))
+    assert (before > 5e-3).all() and (after < 1e-4).all()
+    ridge = (V + moves)[V[:, 0] == 0.5]
+    assert np.ptp(ridge[:, 2]) < 1e-4
+    assert ridge[0, 2] - (V + moves)[V[:, 0] == 0.0, 2].mean() == pytest.approx(0.15, abs=0.01)
+
+
+def test_what_bulges_by_more_is_a_form_and_stays():
+    V, F, side = bulging((0.03, 0.2))
+    moves, flat = flattened(V, F, side)
+    assert not flat[V[:, 0] > 0.5].any(), "which only follows its edge"
+    assert np.abs(moves[V[:, 0] > 0.8]).max() < 1e-4
+    assert flat[V[:, 0] < 0.5].min() > 0.99
+    assert from_planes(V + moves, F, side)[0] < 1e-4
+
+
+def test_details_stay_as_high_as_they_are():
+    V, F, side = bulging((0.03, 0.03))
+    heights = np.zeros(len(V))
+    heights[40] = 0.02
+    moves, _ = flattened(V + heights[:, None] * [0.0, 0.0, 1.0], F, side, heights)
+    np.testing.assert_allclose(moves, flattened(V, F, side)[0], atol=2e-4)
+
+
+def test_without_sides_nothing_moves():
+    V, F, side = bulging((0.03, 0.03))
+    moves, flat = flattened(V, F, np.full_like(side, -1))
+    assert not moves.any() and not flat.any()
+
+
+@pytest.mark.parametrize(("crispness", "least", "most"), [(0.9, 0.95, 1.0), (0.5, 0.0, 0.5)])
+def test_a_ball_becomes_a_cube_of_planes(crispness, least, most):
+    V, F = uv_sphere(32, 16)
+    style, options = Style(0.4, crispness=crispness), SolverOptions(keep_rotation=True)
+    made = Run(Stylization(Setup(rest_mesh(V, F)), style, options=options))
+    made.complete()
+    assert least <= share_facing(made.result().positions, F, degrees=1.0) <= most
+
+
+def test_a_pin_in_the_middle_of_a_side_stays():
+    V, F = uv_sphere(32, 16)
+    pinned = np.flatnonzero(V[:, 2] > 0.8 * V[:, 2].max())
+    setup = Setup(rest_mesh(V, F), pinned)
+    made = Run(Stylization(setup, Style(0.4, crispness=1.0)))
+    made.complete()
+    np.testing.assert_allclose(made.result().positions[pinned], V[pinned], atol=1e-9)
