@@ -362,3 +362,13 @@ def test_all_roots_of_a_stump_come_back_to_the_floor():
     is_low = V[:, 2] < V[:, 2].min() + 0.01 * size
     rises = [U[is_low & (root == k), 2].min() - V[:, 2].min() for k in range(4)]
     assert np.abs(rises).max() < 0.005 * size
+
+
+def test_a_ground_stays_where_it_is_under_what_stands_on_it():
+    V, F = table()
+    corners = np.array([(-8.0, -8.0), (8.0, -8.0), (8.0, 8.0), (-8.0, 8.0)])
+    plane = np.column_stack([corners, np.full(4, V[:, 2].min())])
+    ground = piece_of(plane, np.array([(0, 1, 2), (0, 2, 3)]), Style(0.8))
+    found = solved(piece_of(V, F, Style(0.8)), ground, proxy=ProxyOptions(), keep_floor=True)
+    assert np.abs(found[1] - plane).max() < 1e-9
+    assert found[0][:, 2].min() == pytest.approx(plane[0, 2], abs=1e-6)
