@@ -118,9 +118,11 @@ class RestMesh(Value):
         return self.input_map.place()
 
     @cached_property
-    def box_frames(self) -> FloatArray | None:
-        """(n,3,3) frames of parts that are already boxes, see `proxy/boxes.py`, or None."""
-        return box_frames(self.V, self.F, self.topology.part) if self.options.refine else None
+    def box_frames(self) -> tuple[FloatArray | None, BoolArray]:
+        """(n,3,3) frames of boxes or None, and (n,) which are wholly so, see `proxy/boxes.py`."""
+        if not self.options.refine:
+            return None, np.zeros(len(self.V), dtype=bool)
+        return box_frames(self.V, self.F, self.topology.part)
 
     @cached_property
     def outward(self) -> FloatArray:
@@ -277,10 +279,8 @@ class RestMesh(Value):
         if self.unposed is not None:
             return self.unposed.limbs.posed(self.unposed.V, self.V)
         links = self.to_other_side if self.to_other_side is not None else no_links()
-        has_none = np.zeros(len(self.V), dtype=bool)
-        if self.box_frames is not None:
-            has_none = self.box_frames.any(axis=(1, 2))
-        has_none |= extrusions(self.V, self.F, self.topology.part)[self.topology.part]
+        has_none = extrusions(self.V, self.F, self.topology.part)[self.topology.part]
+        has_none |= self.box_frames[1]
         links = links.part(~has_none[links.vertices[:, 0]])
         surface = self.topology.part, self.normals, self.areas
         found = limbs_of_shape(self.V, self.skin, links, *surface)

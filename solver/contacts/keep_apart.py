@@ -25,6 +25,8 @@ import numpy as np
 
 from ..aliases import FloatArray, IntArray
 from ..proxy.links import no_links
+from ..proxy.samples import extents
+from ..proxy.sheets import is_ground
 from .crossings import DEPTH, crossings
 from .gaps import Gaps
 from .pairs import links_against, merged, mirrored
@@ -311,8 +313,16 @@ class KeepApart:
         return np.isin(component, component[of_cards])
 
     def _counts(self, pairs):
-        """Return which pairs (k,2) did not both cross something at rest."""
-        return ~self._rest.crosses_at_rest(pairs).all(axis=1)
+        """Return which pairs (k,2) did not both cross something at rest, and are of no ground.
+
+        What stands on one would move it: a plane gives way to everything.
+        """
+        counts, corners = ~self._rest.crosses_at_rest(pairs).all(axis=1), self._shown[pairs, 0]
+        is_sheet = self._rest.is_sheet
+        if is_sheet[corners].any():
+            V, part = self._rest.V, self._rest.topology.part
+            counts &= ~is_ground(extents(V, part)[part], is_sheet, *corners.T)
+        return counts
 
     def _firm_counts(self, pairs):
         """Return the same, for none with a card."""

@@ -59,6 +59,8 @@ OF_NODES = 3
 """fewest in a short piece, in the mean: fewer do not say how it bends"""
 BEND = np.cos(np.radians(4.0))
 """between the directions of a piece that is straight and of each short one"""
+FOOT = 3, np.radians(15.0), 2.0
+"""fewest turns of a piece, and the least one at an end that leads to a foot, also in others"""
 BLUR = 0.35
 """of the width: how far a piece reaches into the next"""
 SMOOTHINGS = 4
@@ -390,6 +392,12 @@ def _tangents(places, number, share, count, axis):
     sums = np.stack([np.bincount(number, share * x, count) for x in places.T], axis=1)
     middles = sums[known] / weight[known, None]
     steps = np.diff(middles, axis=0)
+    unit = steps / np.maximum(np.linalg.norm(steps, axis=1), 1e-12)[:, None]
+    turns = np.arccos(np.clip((unit[1:] * unit[:-1]).sum(axis=1), -1.0, 1.0))
+    fewest, least, in_others = FOOT
+    for end, before in ((0, 1), (-1, -2)) if len(turns) >= fewest else ():
+        if turns[end] > max(least, in_others * np.median(np.delete(turns, end))):
+            steps[end] = steps[before]  # a foot is no part of the shank
     first, last = steps[:2].mean(axis=0), steps[-2:].mean(axis=0)  # a single step is noisy
     steps = np.vstack([first, steps, last])  # before and after each of them
     ends = steps[:-1] + steps[1:]

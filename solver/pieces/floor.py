@@ -25,6 +25,8 @@ _ZONE = 0.05
 """the same for what may come to be the lowest of a foot"""
 _BASE = 0.25
 """of the extent of a component along a horizontal axis: what all its feet span if it stands"""
+_WIDE = 0.5
+"""of the same: what is wider is no foot, but may have some, as the roots of a tree are"""
 _EVEN = 0.002
 """of the height: feet that rise as evenly are moved as one"""
 _FIRM = 1e3
@@ -63,7 +65,9 @@ class Floor:
         `positions`: (N,3), where the run has taken the vertices of the input. `only_standing`:
         leave alone what has no feet or base, such as a ball, but touches the ground.
         """
-        is_moved = self._is_moved & self._is_standing if only_standing else self._is_moved
+        is_moved = self._is_moved
+        if only_standing and is_moved.any():
+            is_moved = is_moved & self._is_standing
         if not is_moved.any():
             return positions
         rises = self._rises(positions[self._used] @ self._up) * is_moved[self._component]
@@ -75,34 +79,53 @@ class Floor:
 
     @cached_property
     def _is_standing(self) -> BoolArray:
-        """(c,) bool, the components whose feet are apart, or whose base is wide."""
-        points = self._setup.rest.input_positions[self._used]
-        is_foot, found = self._is_near(_STANDING), np.zeros(len(self._is_moved), dtype=bool)
-        for axis in _across(self._up):
-            along = points @ axis
-            whole, base = (
-                -self._lowest_of_components(np.where(rows, -along, np.inf))
-                - self._lowest_of_components(np.where(rows, along, np.inf))
-                for rows in (np.ones_like(is_foot), is_foot)
-            )
-            found |= base >= _BASE * whole
-        return found
+        """(c,) bool, the components with several feet, or whose base is wide."""
+        is_low = self._is_near(_STANDING)
+        feet = np.unique(np.stack([self._component, self._zone])[:, is_low], axis=1)[0]
+        base = np.where(is_low, self._component, -1)
+        is_wide = self._is_wide(base, len(self._is_moved), _BASE)
+        return (np.bincount(feet, minlength=len(is_wide)) > 1) | is_wide
 
     @cached_property
     def _zone(self) -> IntArray:
         """(k,) the foot that each vertex is of, or near, or -1."""
-        rest, is_near = self._setup.rest, self._is_near(_ZONE)
+        zone, low = self._pieces(_ZONE), self._pieces(_STANDING)
+        count = zone.max() + 1
+        pairs = np.unique(np.stack([zone, low])[:, low >= 0], axis=1)
+        has_feet = np.bincount(pairs[0], minlength=count) > 1
+        has_feet &= self._is_wide(zone, count, _WIDE)
+        is_foot = np.zeros(count, dtype=bool)
+        is_foot[zone[self._is_near(_FOOT)]] = True
+        zone = np.where((zone >= 0) & is_foot[zone], zone, -1)
+        zone = np.where((zone >= 0) & has_feet[zone], np.where(low >= 0, count + low, -1), zone)
+        return np.unique(zone, return_inverse=True)[1].ravel() - (zone < 0).any()
+
+    def _pieces(self, share):
+        """Return the number (k,) of the connected piece near the ground, or -1."""
+        rest, is_near = self._setup.rest, self._is_near(share)
         is_solved = np.zeros(len(rest.V), dtype=bool)
         is_solved[self._place[is_near]] = True
         F = rest.shown
         edges = np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]])
         edges = edges[is_solved[edges].all(axis=1)]
-        _, part = components(edges, len(rest.V))
-        _, zone = np.unique(part[self._place], return_inverse=True)
-        is_foot = np.zeros(zone.max() + 1, dtype=bool)
-        is_foot[zone[self._is_near(_FOOT)]] = True
-        zone = np.where(is_near & is_foot[zone], zone, -1)
-        return np.unique(zone, return_inverse=True)[1].ravel() - (zone < 0).any()
+        _, piece = components(edges, len(rest.V))
+        _, piece = np.unique(piece[self._place], return_inverse=True)
+        return np.where(is_near, piece.ravel(), -1)
+
+    def _is_wide(self, group, count, least):
+        """Return which groups (k,) int have so much of the width of their components."""
+        points, found = self._setup.rest.input_positions[self._used], np.zeros(count, dtype=bool)
+        rows = np.flatnonzero(group >= 0)
+        group, component = group[rows], self._component[rows]
+        for axis in _across(self._up):
+            along = points @ axis
+            whole = -self._lowest_of_components(-along) - self._lowest_of_components(along)
+            most = np.full(count, np.inf)
+            most[group] = whole[component]
+            found |= -_lowest(-along[rows], group, count) - _lowest(along[rows], group, count) >= (
+                least * most
+            )
+        return found
 
     def _is_near(self, share):
         """Return which vertices (k,) are within a share of the height above the ground."""

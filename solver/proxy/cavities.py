@@ -21,7 +21,10 @@ from .thickness import FACING, STRENGTH, facing, facing_pairs, outward_sign
 ENCLOSED = 0.7
 """least share of directions in which the part is seen"""
 LEAST_AREA = 0.05
-"""of the part, from which links lead"""
+"""of the part, from which links lead..."""
+SLANTED, AREA_OF_SLANTED = 0.7, 0.15
+"""...or, where walls are not parallel, as in a boat, the least cosine between links and normals,
+and the area: beneath a chin and between legs, there is less"""
 OF_STRENGTH = 1.5
 """of the links inside: nothing else holds a cavity open"""
 LEAST_FACING = 0.5
@@ -84,15 +87,19 @@ def _narrow(V, normals, i, j):
 def _are_cavities(V, normals, areas, part, i, j, weights):
     """Return which pairs i, j (k,) with weights (k,) lead across a cavity."""
     are_cavities = np.zeros(len(i), dtype=bool)
-    rows = np.flatnonzero(facing(V, normals, i, j) > FACING)
+    rows = np.flatnonzero(facing(V, normals, i, j) > SLANTED)
     i, j, weights = i[rows], j[rows], weights[rows]
     is_kept = _enclosed((V[i] + V[j]) / 2.0, part[i], V, part) > ENCLOSED
     rows, i, j, weights = rows[is_kept], i[is_kept], j[is_kept], weights[is_kept]
     # a link of this weight stands for so much area, see `facing_pairs`
     area = weights / STRENGTH * ((V[j] - V[i]) ** 2).sum(axis=1)
-    total = np.bincount(part, areas)
-    is_kept = (np.bincount(part[i], area, len(total)) > LEAST_AREA * total)[part[i]]
-    are_cavities[rows[is_kept]] = True
+    total, is_parallel = np.bincount(part, areas), facing(V, normals, i, j) > FACING
+    parallel, all_of_them = (
+        np.bincount(part[i], x * area, len(total)) for x in (is_parallel, np.ones(len(i)))
+    )
+    is_cavity = parallel > LEAST_AREA * total
+    is_slanted = ~is_cavity & (all_of_them > AREA_OF_SLANTED * total)
+    are_cavities[rows[is_cavity[part[i]] & is_parallel | is_slanted[part[i]]]] = True
     return are_cavities
 
 

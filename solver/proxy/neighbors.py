@@ -21,7 +21,7 @@ from ..algebra import dot
 from .links import links_to_triangles, no_links
 from .nearest_triangles import FEW, NearestTriangles, is_in_box
 from .samples import extents, surface_samples
-from .sheets import is_ground
+from .sheets import is_ground, planar_sheets
 from .through import links_through
 
 CONTACT = 0.01
@@ -63,7 +63,7 @@ def neighbor_links(V, F, normals, areas, part, count):
     weights = share[i] / np.maximum(dot(*d.T, *d.T), np.maximum(share[i], spacing[i] ** 2))
     both = np.stack([part[i], part[corners[triangle, 0]]])
     is_kept = _is_accepted(V[corners[triangle]], normals[i], sizes[both], d)
-    is_kept &= (weights > LEAST_WEIGHT) & ~is_ground(V, F, part, *both)
+    is_kept &= (weights > LEAST_WEIGHT) & ~is_ground(sizes, planar_sheets(V, F, part), *both)
     i, triangle, barycentric = i[is_kept], triangle[is_kept], barycentric[is_kept]
     links = links_to_triangles(i, corners[triangle], barycentric, weights[is_kept])
     return links.joined(links_through(V, F, part, count, links, areas, spacing))

@@ -108,8 +108,10 @@ def working_extent(V, F, part):
     return min(whole, SCENE * largest) if largest > 0.0 else whole
 
 
-def is_ground(V, F, part, one, other):
-    """Return for which pairs (k,) of parts one is a planar sheet and the other is smaller."""
-    sizes, is_sheet = extents(V, part), planar_sheets(V, F, part)
+def is_ground(sizes, is_sheet, one, other):
+    """Return for which pairs (k,) of parts one is a planar sheet and the other is smaller.
+
+    `sizes`, `is_sheet`: (p,) extents of parts, and which are `planar_sheets`; or (n,), of vertices.
+    """
     found = is_sheet[one] & (sizes[one] > LARGER * sizes[other])
     return found | is_sheet[other] & (sizes[other] > LARGER * sizes[one])

@@ -15,7 +15,7 @@ from .closest_point import closest_points
 from .links import links_to_triangles, no_links
 from .nearest_triangles import FEW
 from .samples import extents
-from .sheets import is_ground
+from .sheets import is_ground, planar_sheets
 
 DEEP = 0.25
 """of the extent of the smaller part: corners that are farther away are not linked"""
@@ -44,8 +44,9 @@ def links_through(V, F, part, count, links, areas, spacing):
     d = np.einsum("kc,kcj->kj", barycentric, V[corners]) - V[i]
     squared = dot(*d.T, *d.T)
     both = np.stack([part[i], part[corners[:, 0]]])
-    smaller = extents(V, part)[both].min(axis=0)
-    is_kept = (squared <= (DEEP * smaller) ** 2) & ~is_ground(V, F, part, *both)
+    sizes = extents(V, part)
+    is_kept = squared <= (DEEP * sizes[both].min(axis=0)) ** 2
+    is_kept &= ~is_ground(sizes, planar_sheets(V, F, part), *both)
     order = np.lexsort((triangle, squared, both[1], i))
     order = order[is_kept[order]]
     keys = both[:, order][1] + count * i[order]

@@ -115,9 +115,12 @@ def solved_style(
     if captures:
         mu = _at_free(style.capture_strength, "capture_strength", setup, at_pins=0.0)
         mu = mu * rest.normal_counts
-    Q, in_limb = _along_limbs(orientation, limbs, forms, form_of, setup)
+    own = orientation
     if keep_rotation and not forms:
-        Q = _along_boxes(Q, rest.box_frames, mu == 0.0)
+        own = _along_boxes(orientation, rest.box_frames[0], mu == 0.0)
+    Q, in_limb = _along_limbs(own, limbs, forms, form_of, setup)
+    if own is not orientation:
+        Q = np.where(rest.box_frames[1][:, None, None], own, Q)
     crispness = _at_free(style.crispness, "crispness", setup, at_pins=0.0)
     is_drawn = (cubeness > 0.0) & (mu == 0.0)
     return SolvedStyle(

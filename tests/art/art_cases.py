@@ -83,6 +83,8 @@ CASES = {
     "box_30": Case(partial(art_coarse.cuboid, (2, 1.5, 1), degrees=30)),
     "box_45": Case(partial(art_coarse.cuboid, (2, 1.5, 1), degrees=45)),
     "box_skew": Case(partial(art_coarse.cuboid, (2, 1.5, 1), (1, 2, 3), 35)),
+    "crate": Case(partial(art_coarse.cuboid, (2, 1.5, 1), (1, 2, 3), 35, 0.1)),
+    "plate": Case(partial(art_coarse.cuboid, (2, 1.5, 0.3), (0, 1, 0), 20, 0.1)),
     "house": Case(art_coarse.house),
     "house_30": Case(partial(art_coarse.house, 30)),
     "waves": Case(art_sheets.wavy_plane),

@@ -58,10 +58,16 @@ def text(body="Cubic"):
     return [bpy.context.object]
 
 
-def cuboid(size=(2, 2, 2), axis=(0, 0, 1), degrees=0):
-    """Return a box of 8 vertices; its vertices, not the object, are turned about an axis."""
+def cuboid(size=(2, 2, 2), axis=(0, 0, 1), degrees=0, bevel=0.0):
+    """Return a box of 8 vertices, or with beveled edges; these are turned, not the object."""
     turn = Matrix.Rotation(np.radians(degrees), 3, axis)
-    return [add("Box", moved(box(size), turn), is_smooth=False)]
+    obj = add("Box", moved(box(size), turn), is_smooth=False)
+    if bevel:
+        modifier = obj.modifiers.new("Bevel", "BEVEL")
+        modifier.width, modifier.segments = bevel, 3
+        bpy.context.view_layer.objects.active = obj
+        bpy.ops.object.modifier_apply(modifier=modifier.name)
+    return [obj]
 
 
 def house(pitch=45):

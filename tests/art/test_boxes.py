@@ -29,6 +29,14 @@ def test_a_box_that_stands_askew_is_not_skewed(name, cubeness):
 
 @pytest.mark.thorough(2)
 @pytest.mark.parametrize("cubeness", CUBENESS)
+@pytest.mark.parametrize("name", ["crate", "plate"])
+def test_a_box_with_beveled_edges_stays_askew(name, cubeness):
+    outcome = outcome_of(name, cubeness)
+    assert measures.turn(outcome.V, outcome.U, outcome.F) <= 0.5
+
+
+@pytest.mark.thorough(2)
+@pytest.mark.parametrize("cubeness", CUBENESS)
 @pytest.mark.parametrize("name", ["house", "house_30"])
 def test_the_walls_of_a_house_stay_upright(name, cubeness):
     outcome = outcome_of(name, cubeness)

@@ -111,7 +111,7 @@ def crisp_run(V, F, crispness=1.0):
 )
 def test_what_crosses_once_sides_are_flat_is_pushed_apart_and_stays_crisp(make):
     made, share = crisp_run(*make())
-    assert share > 0.99 and made.result().crossings == 0
+    assert share > 0.98 and made.result().crossings == 0
 
 
 def test_parts_may_cross_where_they_would_else_stay_soft():

@@ -85,6 +85,15 @@ def test_beside_a_bend_a_limb_lies_as_itself_and_not_as_what_is_beyond():
     assert len(angles) > 4 and np.count_nonzero(~is_right) <= 1, angles
 
 
+@pytest.mark.parametrize("slope", [60.0, 80.0])
+def test_a_shank_lies_as_itself_and_not_as_the_foot(slope):
+    bend = [2.0] * 35 + [0.0] * 35 + list(np.linspace(0.0, slope, 6)) + [slope] * 12
+    way = [[np.sin(x), 0.0, np.cos(x)] for x in np.radians(bend)]
+    leg_and_foot = limb_shapes.tube(np.cumsum(way, axis=0) * 0.035, 0.2)
+    directions = rest_mesh(*leg_and_foot, DEFAULTS).limbs.directions
+    assert np.degrees(np.arccos(np.abs(directions[:, 2]))).max() < 8.0
+
+
 def test_a_leg_that_bends_a_little_keeps_its_bend():
     V, F = leg(40.0, 20.0)
     U = stylize(V, F, 0.4, proxy=DEFAULTS, **KEPT).positions

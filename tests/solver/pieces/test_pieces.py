@@ -319,7 +319,7 @@ def test_the_room_loads_no_scipy_when_it_is_imported():
     assert done.stdout.strip() == "[]"
 
 
-def table(heights=(1.0, 1.0, 1.0, 1.0)):
+def table(heights=(1.0, 1.0, 1.0, 1.0), width=1.0):
     """Return a slab on four rounded legs, which go down to minus some heights."""
     rows, F, n = [], [], 0
     for x, y, height in zip((-1, 1, -1, 1), (-1, -1, 1, 1), heights, strict=True):
@@ -329,12 +329,13 @@ def table(heights=(1.0, 1.0, 1.0, 1.0)):
         F.append(G + n)
         n += len(V)
     V, G = sphere(4)
-    rows.append(np.clip(V, -0.6, 0.6) / 0.6 * [1.0, 1.0, 0.15])
+    rows.append(np.clip(V, -0.6, 0.6) / 0.6 * [width, width, 0.15])
     return np.concatenate(rows), np.concatenate([*F, G + n])
 
 
-def test_all_legs_of_what_stands_come_back_to_the_floor():
-    V, F = table()
+@pytest.mark.parametrize("width", [1.0, 4.0])
+def test_all_legs_of_what_stands_come_back_to_the_floor(width):
+    V, F = table(width=width)
     piece = piece_of(V, F, Style(0.8, crispness=0.9))
     free, kept = (
         solved(piece, proxy=ProxyOptions(), keep_floor=on, only_standing=True)[0]
@@ -346,3 +347,28 @@ def test_all_legs_of_what_stands_come_back_to_the_floor():
     assert np.abs(rises[0]).max() > 0.006 * size
     assert np.abs(rises[1]).max() < 1e-3 * size
     assert np.abs(kept - free)[:, :2].max() == 0.0
+
+
+def test_all_roots_of_a_stump_come_back_to_the_floor():
+    V, F = sphere(4)
+    angle = np.arctan2(V[:, 1], V[:, 0])
+    long = 1.0 + np.cos(angle - 0.6) * np.cos(4 * angle)
+    V = np.maximum(V * np.stack([long, long, np.full(len(V), 1.3)], axis=1), [-9.0, -9.0, -0.5])
+    arch = np.maximum(1.0 - np.hypot(V[:, 0], V[:, 1]) / 0.9, 0.0)
+    V[:, 2] += np.where(V[:, 2] <= -0.5, 0.08 * arch, 0.0)
+    piece = piece_of(V, F, Style(0.8, crispness=0.9))
+    (U,) = solved(piece, proxy=ProxyOptions(), keep_floor=True, only_standing=True)
+    size, root = np.ptp(V[:, 2]), np.round(angle / (np.pi / 2)).astype(int) % 4
+    is_low = V[:, 2] < V[:, 2].min() + 0.01 * size
+    rises = [U[is_low & (root == k), 2].min() - V[:, 2].min() for k in range(4)]
+    assert np.abs(rises).max() < 0.005 * size
+
+
+def test_a_ground_stays_where_it_is_under_what_stands_on_it():
+    V, F = table()
+    corners = np.array([(-8.0, -8.0), (8.0, -8.0), (8.0, 8.0), (-8.0, 8.0)])
+    plane = np.column_stack([corners, np.full(4, V[:, 2].min())])
+    ground = piece_of(plane, np.array([(0, 1, 2), (0, 2, 3)]), Style(0.8))
+    found = solved(piece_of(V, F, Style(0.8)), ground, proxy=ProxyOptions(), keep_floor=True)
+    assert np.abs(found[1] - plane).max() < 1e-9
+    assert found[0][:, 2].min() == pytest.approx(plane[0, 2], abs=1e-6)

@@ -135,6 +135,7 @@ def test_handles_and_orientations_are_carried_through_the_proxy():
 
 OUTLINES = {
     "cup": [(0.02, 0), (0.35, 0), (0.4, 0.05), (0.45, 1), (0.4, 1), (0.35, 0.08), (0.02, 0.06)],
+    "slanted walls": [(0.02, 0), (0.25, 0), (0.8, 1), (0.75, 1), (0.22, 0.06), (0.02, 0.06)],
     "single wall": [(0.02, 0), (0.35, 0), (0.4, 0.05), (0.45, 0.6)],
     "post": [(0.02, 0), (0.2, 0), (0.2, 1), (0.02, 1)],
 }
@@ -144,7 +145,7 @@ def revolved(name, around=64):
     return proxy_shapes.revolved(OUTLINES[name], around, step=0.03)
 
 
-@pytest.mark.parametrize("name", ["cup", "single wall"])
+@pytest.mark.parametrize("name", ["cup", "slanted walls", "single wall"])
 def test_walls_are_linked_across_what_they_enclose(name):
     V, F = revolved(name)
     rest = rest_mesh(V, F, ProxyOptions())
