@@ -17,6 +17,13 @@ from .closed import find_faults
 from .marks import marks_of
 from .targets import TARGETS, Options, exporter, settings
 
+_MILLIMETERS = 1000.0  # in a meter
+SCALES = (
+    ("SCENE", "Scene Unit", "As large as in the scene: a meter becomes 1000 mm"),
+    ("MILLIMETERS", "Millimeters", "A unit of Blender becomes a millimeter"),
+    ("SIZE", "Longest Side", "The longest side of everything that is written has a given length"),
+)
+
 
 @dataclass
 class Sent:
@@ -158,14 +165,6 @@ def _write(run: Callable[[Path], object], path: Path) -> int:
     except InputError as error:
         raise CubicCraftError(str(error)) from error
     return path.stat().st_size
-
-
-_MILLIMETERS = 1000.0  # in a meter
-SCALES = (
-    ("SCENE", "Scene Unit", "As large as in the scene: a meter becomes 1000 mm"),
-    ("MILLIMETERS", "Millimeters", "A unit of Blender becomes a millimeter"),
-    ("SIZE", "Longest Side", "The longest side of everything that is written has a given length"),
-)
 
 
 def scale_of(

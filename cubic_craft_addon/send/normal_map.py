@@ -26,6 +26,8 @@ from .few_polygons import few_polygons
 from .properties import IMAGE
 from .split import OldSurface
 
+_ANGLE, _TOLERANCE = math.radians(20.0), 0.02  # the defaults of Flatten Facets
+
 
 class MapMaterials:
     """The materials of a low-poly mesh, with the image as a node that is not connected yet.
@@ -100,9 +102,6 @@ class MapMaterials:
         material.node_tree.nodes.active = texture
         self._nodes.append((material, texture))
         return material
-
-
-_ANGLE, _TOLERANCE = math.radians(20.0), 0.02  # the defaults of Flatten Facets
 
 
 @dataclass(frozen=True)

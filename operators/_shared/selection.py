@@ -72,7 +72,7 @@ def poll_mesh(operator_class, context, modes=("OBJECT",)):
         return refuse(operator_class, "Make a mesh object active first")
     if not obj.is_editable:
         return refuse(operator_class, "The object is linked from another file; make it local")
-    if not obj.data.is_editable:
+    if mesh_bridge.is_linked(obj.data):
         return refuse(operator_class, "The mesh is linked from another file; make it local")
     return True
 
