@@ -14,7 +14,7 @@ from ...solver.console.output import InputError, replacing
 from .. import mesh_bridge
 from ..environment.scene_state import frame_kept, only_selected
 from .closed import find_faults
-from .marks import marks_of
+from .marks import armatures_of, marks_of
 from .targets import TARGETS, Options, exporter, settings
 
 _MILLIMETERS = 1000.0  # in a meter
@@ -80,7 +80,7 @@ def ready(target: str, objects: list[bpy.types.Object], options: Options) -> Ite
         facts.append(_check_printable(objects, options.scale, problems))
     chosen = settings(target, objects, options, is_modified=is_modified)
     posed = [] if kind.is_printed else objects
-    armatures = {armature for obj in posed for armature in _armatures(obj)}
+    armatures = {armature for obj in posed for armature in armatures_of(obj)}
     with contextlib.ExitStack() as stack:
         for obj in {obj.data: obj for obj in objects}.values():
             values, own = marks_of(kind, obj, with_groups=options.with_groups)
@@ -144,14 +144,6 @@ def _check_printable(objects: list[bpy.types.Object], scale: float, problems: li
             problems.append(f'"{obj.name}" {fault}; it may not print as it looks')
     size = np.ptp(np.array(corners), axis=0) * scale
     return " x ".join(f"{side:,.4g}" for side in size) + " mm"
-
-
-def _armatures(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
-    for modifier in obj.modifiers:
-        if isinstance(modifier, bpy.types.ArmatureModifier) and modifier.object is not None:
-            yield modifier.object
-    if obj.parent is not None and obj.parent.type == "ARMATURE":
-        yield obj.parent
 
 
 def _write(run: Callable[[Path], object], path: Path) -> int:

@@ -78,12 +78,12 @@ def test_moving_object_and_handles_together_restarts_nothing(live, begin):
     empty = pose(obj)
     session = begin(obj, space="OBJECT")  # which takes the cube along
     tick_to_rest(session)
-    done = session.meshes[0].iterations
+    done = session.meshes[0].run.iterations
     obj.location = (0.3, 5.1, -2.7)
     obj.rotation_euler = (0.4, 1.0, 0.2)
     bpy.context.view_layer.update()
     session.tick(bpy.context)
-    assert session.meshes[0].iterations == done and session._timer is None
+    assert session.meshes[0].run.iterations == done and session._timer is None
     assert empty.parent == obj
 
 
