@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import bpy
@@ -26,3 +27,11 @@ def has_properties(obj: bpy.types.Object) -> bool:
     objects must check this first.
     """
     return obj.is_property_set(PROPERTY)
+
+
+def users_of(meshes: Iterable[bpy.types.Mesh]) -> Iterator[bpy.types.Object]:
+    """Give the objects that show any of the meshes and can have other settings, each once."""
+    found = bpy.data.user_map(subset=list(meshes)).values()
+    for user in set().union(*found):
+        if isinstance(user, bpy.types.Object) and user.is_editable:
+            yield user

@@ -4,10 +4,10 @@
 import bpy
 from bpy.props import StringProperty
 
-from ..cubic_craft_addon.live import shared_properties
+from ..cubic_craft_addon.live import panel_mesh, shared_properties
 from ..cubic_craft_addon.presets import files
 from ..cubic_craft_addon.presets.selector import preset_of
-from ._shared.selection import panel_mesh, poll_panel_mesh, refuse
+from ._shared.selection import poll_panel_mesh, refuse
 from ._shared.unexpected_errors import reporting
 
 

@@ -5,7 +5,7 @@ import bpy
 
 from ..cubic_craft_addon import live
 from ..cubic_craft_addon.settings.overrides import ALL, OF_EACH_OBJECT
-from ._shared.selection import panel_mesh, poll_panel_mesh
+from ._shared.selection import poll_panel_mesh
 
 
 class CUBIC_CRAFT_OT_reset(bpy.types.Operator):
@@ -24,7 +24,7 @@ class CUBIC_CRAFT_OT_reset(bpy.types.Operator):
         return poll_panel_mesh(cls, context)
 
     def execute(self, context):
-        properties = live.shared_properties(panel_mesh(context))
+        properties = live.shared_properties(live.panel_mesh(context))
         for name in ALL:
             if name not in OF_EACH_OBJECT:
                 properties.property_unset(name)

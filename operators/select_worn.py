@@ -3,8 +3,9 @@
 
 import bpy
 
+from ..cubic_craft_addon.live import panel_mesh
 from ..cubic_craft_addon.worn.found import worn_by
-from ._shared.selection import panel_mesh, poll_object_mode, poll_panel_mesh, poll_work
+from ._shared.selection import poll_object_mode, poll_panel_mesh, poll_work
 from ._shared.unexpected_errors import reporting
 
 

@@ -341,12 +341,21 @@ class RestMesh(Value):
         """Which triangles of the input cross others at rest."""
         return CrossingTriangles(self.V, self.shown)
 
-    def linked(self, links: Links) -> RestMesh:
-        """Return the mesh with further links, which change nothing in what covers what."""
-        linked = self._linked(links)
-        linked.__dict__["linked_share"] = self.linked_share
+    def with_links(self, links: Links) -> RestMesh:
+        """Return the mesh with further links to neighbors."""
+        to_neighbors = self.to_neighbors.joined(links)
+        return replace(
+            self,
+            topology=self.topology.linked(to_neighbors.pairs()),
+            to_neighbors=to_neighbors,
+            matrices=self.matrices.with_links(self.V, links),
+        )
+
+    def held_apart(self, links: Links) -> RestMesh:
+        """Return the mesh `with_links` that change neither its surface nor what covers what."""
+        linked = self.with_links(links)
         known = {name: self.__dict__[name] for name in _OF_THE_SURFACE if name in self.__dict__}
-        linked.__dict__.update(known)
+        linked.__dict__.update(known, linked_share=self.linked_share)
         return linked
 
     def posed(self, input_positions: ArrayLike) -> RestMesh:
@@ -404,16 +413,7 @@ class RestMesh(Value):
 
         coarse = rest_mesh(V, F, PAPER)
         at = cluster if coarse.input_map.order is None else coarse.place[1][cluster]
-        return Coarsening(coarse._linked(self.links.mapped(at)), cluster)
-
-    def _linked(self, links):
-        to_neighbors = self.to_neighbors.joined(links)
-        return replace(
-            self,
-            topology=self.topology.linked(to_neighbors.pairs()),
-            to_neighbors=to_neighbors,
-            matrices=self.matrices.with_links(self.V, links),
-        )
+        return Coarsening(coarse.with_links(self.links.mapped(at)), cluster)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -160,7 +160,7 @@ class Setup(Stored):
         Pins, held groups and mirrors stay in force.
         """
         other = self._without_coarse()
-        other.rest = rest.linked(links)
+        other.rest = rest.held_apart(links)
         other.has_pin = np.zeros(other.rest.topology.component_count, dtype=bool)
         other.has_pin[other.rest.topology.component[self.pinned]] = True
         other.global_step = GlobalStep(other.rest, self.pinned)

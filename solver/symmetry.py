@@ -15,7 +15,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .aliases import BoolArray, FloatArray, IntArray
+from .aliases import BoolArray, FloatArray, IntArray, RealArray
 from .rotation_fit import svd_rotations
 from .values import Value
 
@@ -84,6 +84,12 @@ class Mirror(Value):
         rotations[second] = self.linear @ rotations[first] @ inverse
         images = self.linear @ rotations[inside] @ inverse
         rotations[inside] = svd_rotations((rotations[inside] + images).swapaxes(1, 2))
+
+    def suits(self, points: RealArray, reach: float) -> bool:
+        """Return whether partners are images of each other at points (n,3), up to a distance."""
+        rows = np.flatnonzero(self.partner != NO_PARTNER)
+        images = self.image(points[self.partner[rows]].astype(np.float64))
+        return bool(np.abs(images - points[rows]).max(initial=0.0) <= reach)
 
     def without(self, is_held: BoolArray) -> Mirror:
         """Return the mirror without the vertices of a mask (n,) and without their partners."""

@@ -26,6 +26,9 @@ from .measured import Angles, remaining_angles
 
 _known: Kept[Angles] = Kept()
 """by the object, with what they were measured with as the key"""
+PROPERTY = "cubic_craft_angles"
+_TOWARD_VIEWER = 2e-6
+"""of the depth range, so that the colors cover the surface: some steps of 24 bits"""
 
 
 def angles_now(obj: bpy.types.Object) -> Angles:
@@ -43,11 +46,6 @@ def angles_now(obj: bpy.types.Object) -> Angles:
     angles = remaining_angles(obj, placement, settings)
     return _known.keep(obj.session_uid, angles, placement.key)
 
-
-PROPERTY = "cubic_craft_angles"
-
-_TOWARD_VIEWER = 2e-6
-"""of the depth range, so that the colors cover the surface: some steps of 24 bits"""
 
 _VERTEX_SOURCE = """
 void main() {

@@ -21,10 +21,11 @@ from ..environment.lock import BusyError
 from ..job.job import Step
 from ..read.member import assemblies
 from ..read.object_frame import placements
+from ..send.targets import check_exporter
 from ..settings.values import Settings
 from .animated import Animated, AnimatedGroup, FrameSettings
 from .even_speed import even_places, largest_steps, resampled
-from .exchange import SUFFIXES, check_format
+from .exchange import SUFFIXES
 from .parts import lead_in
 from .places import BakeOptions, BakeResult, Places
 from .playback import play, shown, stretch
@@ -78,7 +79,7 @@ class Bake:
     ):
         if not options.frames:
             raise CubicCraftError("the last frame comes before the first; change the range")
-        check_format(SUFFIXES[options.file_format])
+        check_exporter(SUFFIXES[options.file_format])
         self._stretch = stretch()
         self._places = Places(options)
         self._overrides, self._sources, self._options = overrides, sources, options

@@ -8,19 +8,10 @@ import bpy
 
 from ...solver import CubicCraftError
 from ..environment.scene_state import frame_kept, only_selected
-from ..send.targets import TARGETS, Options, exporter, settings, target_of
+from ..send.targets import Options, exporter, settings, target_of
 
 SUFFIXES = {"CACHE": ".pc2", "SHAPE_KEYS": ".pc2", "ALEMBIC": ".abc", "USD": ".usdc"}
 """of the files of each format; shape keys are read from a point cache"""
-
-
-def check_format(suffix: str) -> None:
-    """Raise a CubicCraftError if this Blender cannot write files that end so."""
-    target = TARGETS[target_of(suffix)]
-    if target.operator and not getattr(bpy.app.build_options, target.name.lower()):
-        raise CubicCraftError(
-            f"this Blender was built without {target.name}; choose another format"
-        )
 
 
 def export_frames(objects: Sequence[bpy.types.Object], path: Path, start: int, end: int) -> None:

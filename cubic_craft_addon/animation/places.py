@@ -15,6 +15,9 @@ from ..settings.overrides import SettingsOverrides
 from .exchange import SUFFIXES
 from .properties import SOURCE
 
+_UNFINISHED = ".unfinished"  # suffix of the folders of recordings
+_PROCESS = ".process"
+
 
 @dataclass(frozen=True)
 class BakeOptions:
@@ -56,10 +59,6 @@ class BakeResult:
     """relative to that of the input"""
     common_jump: float
     """the 99th percentile, relative to that of the input"""
-
-
-_UNFINISHED = ".unfinished"  # suffix of the folders of recordings
-_PROCESS = ".process"
 
 
 class Places:

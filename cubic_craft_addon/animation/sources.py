@@ -16,6 +16,7 @@ from ..settings.values import SETTINGS, Settings
 OF_ALL_FRAMES = tuple(name for name, each in SETTINGS.items() if each.is_of_all_frames)
 """settings that determine which vertices are solved, which a sequence of frames has in common"""
 _SETTING = re.compile(rf"{PROPERTY}\.(\w+)")
+_STRENGTHS = [name for name, each in SETTINGS.items() if each.is_strength]
 
 
 class OfSources:
@@ -53,9 +54,6 @@ def animated_settings(obj: bpy.types.Object) -> dict[str, str]:
     found = (_SETTING.match(path) for path in animated_paths(obj))
     known = object_properties(obj).bl_rna.properties
     return {match[1]: known[match[1]].name for match in found if match and match[1] in known}
-
-
-_STRENGTHS = [name for name, each in SETTINGS.items() if each.is_strength]
 
 
 def on_the_way(start: Settings | None, end: Settings, share: float) -> Settings:

@@ -5,20 +5,22 @@ import contextlib
 import time
 from argparse import Namespace
 from collections.abc import Iterator
+from typing import Any
 
-from ...solver.console.output import InputError
-from ...solver.errors import CubicCraftError
+from ...solver.console.output import refusals_of
 from ..environment.requirements import new_engine_warnings
+from ..send.targets import check_exporter
 from .picture.gallery import build_gallery
 from .picture.render import render
 from .picture.studio import furnish
 from .process.output_files import meshes, numbered, per_cubeness
 from .process.progress import ProgressBar
-from .reading.load_meshes import FormMesh, Loaded, empty_blender, load, make_form, read_form
+from .reading.form_mesh import make_form, read_form
+from .reading.load_meshes import Loaded, empty_blender, load
 from .solving.bake_frames import bake_frames
 from .solving.cubify_all import cubify_all
-from .writing.report import write_animation_report, write_report
-from .writing.save_meshes import check_exporter, save_meshes
+from .writing.report import about_sculptures, write_report
+from .writing.save_meshes import save_meshes
 
 
 def run(options: Namespace, begin: float) -> None:
@@ -29,15 +31,23 @@ def run(options: Namespace, begin: float) -> None:
     """
     empty_blender()
     if options.save_mesh:
-        check_exporter(options.save_mesh)
-    form = read_form(options.form_object, options.verbose) if options.form_object else None
-    capture = read_form(options.capture, options.verbose) if options.capture else None
-    _run(options, form, capture, begin)
-
-
-def _run(options: Namespace, form: FormMesh | None, capture: FormMesh | None, begin: float) -> None:
+        with refusals_of(options.save_mesh):
+            check_exporter(options.save_mesh.suffix)
     bar = ProgressBar(is_silent=bool(options.worker))
     seconds: dict[str, float] = {}
+    loaded = _load(options, seconds)
+    for name in loaded.covered:
+        bar.say(f'"{name}": what is seen is taken, as its modifiers show a shape of their own')
+    about = (_bake if options.bake else _sculpt)(loaded, options, bar, seconds)
+    seconds["total"] = time.perf_counter() - begin
+    if options.report:
+        write_report(options.report, about, options, seconds)
+        bar.say(f"wrote {options.report}")
+
+
+def _load(options: Namespace, seconds: dict[str, float]) -> Loaded:
+    form = read_form(options.form_object, options.verbose) if options.form_object else None
+    capture = read_form(options.capture, options.verbose) if options.capture else None
     with _timed("load", seconds):
         loaded = load(
             options.input,
@@ -48,15 +58,15 @@ def _run(options: Namespace, form: FormMesh | None, capture: FormMesh | None, be
         )
         loaded.form = make_form(form) if form else None
         loaded.capture = make_form(capture, options.capture.stem) if capture else None
-    for name in loaded.covered:
-        bar.say(f'"{name}": what is seen is taken, as its modifiers show a shape of their own')
-    if options.bake:
-        _bake(loaded, options, bar, seconds, begin)
-        return
-    try:
+    return loaded
+
+
+def _sculpt(
+    loaded: Loaded, options: Namespace, bar: ProgressBar, seconds: dict[str, float]
+) -> dict[str, Any]:
+    """Write meshes and a picture, and return what there is to report."""
+    with refusals_of(options.input or "monkey"):
         sculptures = cubify_all(loaded, options, bar)
-    except CubicCraftError as error:
-        raise InputError(f"{options.input or 'monkey'}: {error}") from error
     for notice in new_engine_warnings():
         bar.say(notice)
     with _timed("write", seconds):
@@ -73,24 +83,14 @@ def _run(options: Namespace, form: FormMesh | None, capture: FormMesh | None, be
             furnish(gallery, options.resolution[0] / options.resolution[1])
             for path in render(gallery, numbered(options.output, options.turntable), options):
                 bar.say(f"wrote {path}")
-    seconds["total"] = time.perf_counter() - begin
-    if options.report:
-        write_report(options.report, sculptures, options, seconds)
-        bar.say(f"wrote {options.report}")
+    return about_sculptures(sculptures, options.cubeness)
 
 
 def _bake(
-    loaded: Loaded, options: Namespace, bar: ProgressBar, seconds: dict[str, float], begin: float
-) -> None:
-    try:
-        with _timed("bake", seconds):
-            animation = bake_frames(loaded, options, bar)
-    except CubicCraftError as error:
-        raise InputError(f"{options.input or 'monkey'}: {error}") from error
-    seconds["total"] = time.perf_counter() - begin
-    if options.report:
-        write_animation_report(options.report, animation, options, seconds)
-        bar.say(f"wrote {options.report}")
+    loaded: Loaded, options: Namespace, bar: ProgressBar, seconds: dict[str, float]
+) -> dict[str, Any]:
+    with refusals_of(options.input or "monkey"), _timed("bake", seconds):
+        return bake_frames(loaded, options, bar)
 
 
 @contextlib.contextmanager

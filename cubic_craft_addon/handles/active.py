@@ -11,6 +11,9 @@ from .. import mesh_bridge
 from ..object_properties import object_properties
 from .own_pose import identify
 
+_MARGIN = 1.1  # size of the empty relative to the vertices it moves
+_SMALLEST = 0.03  # radius of the empty, as part of the extent of the mesh
+
 
 def active_handle(obj) -> Any:
     """Return the handle of the object that is active in its list, or None."""
@@ -41,10 +44,6 @@ def members(obj, handle):
             f' group "{handle.group}"; paint it or lower the threshold'
         )
     return found
-
-
-_MARGIN = 1.1  # size of the empty relative to the vertices it moves
-_SMALLEST = 0.03  # radius of the empty, as part of the extent of the mesh
 
 
 def add_empty(context: bpy.types.Context, obj: Any, handle: Any) -> bpy.types.Object:

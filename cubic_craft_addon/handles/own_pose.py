@@ -24,13 +24,20 @@ if TYPE_CHECKING:
 
 Pose = tuple[float, ...]
 """16 numbers, row by row, of single precision"""
-SMALLEST_SCALE = 1e-6
-"""relative; flatter matrices have no usable inverse"""
+_SMALLEST_SCALE = 1e-6  # relative; flatter matrices have no usable inverse
 
 
 def own_pose(handle: CubicCraftHandle) -> Pose:
     """Return the pose stored with the handle."""
     return tuple(value for row in handle.pose for value in row)
+
+
+def is_invertible(matrix: np.ndarray) -> bool:
+    """Return whether a matrix (4,4) is finite and flattens nothing."""
+    if not np.isfinite(matrix).all():
+        return False
+    sizes = np.linalg.svd(matrix[:3, :3], compute_uv=False)
+    return bool(sizes[-1] > _SMALLEST_SCALE * sizes[0])
 
 
 def check_pose(obj: bpy.types.Object, handle: CubicCraftHandle, pose: Pose) -> None:
@@ -41,11 +48,8 @@ def check_pose(obj: bpy.types.Object, handle: CubicCraftHandle, pose: Pose) -> N
     """
     if pose == IDENTITY:
         return
-    matrix = np.reshape(pose, (4, 4))
-    if np.isfinite(matrix).all() and pose[12:] == IDENTITY[12:]:
-        sizes = np.linalg.svd(matrix[:3, :3], compute_uv=False)
-        if sizes[-1] > SMALLEST_SCALE * sizes[0]:
-            return
+    if is_invertible(np.reshape(pose, (4, 4))) and pose[12:] == IDENTITY[12:]:
+        return
     raise CubicCraftError(
         f'the pose of the handle "{handle.group}" of "{obj.name}" is not an affine map, or has a'
         " scale of zero; click Reset Pose, or give it as a mathutils.Matrix (Blender takes a plain"

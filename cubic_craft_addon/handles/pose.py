@@ -24,9 +24,9 @@ from ...solver.errors import CubicCraftError
 from ...solver.pieces.handle_pose import IDENTITY
 from .. import mesh_bridge
 from ..mesh_bridge import vertex_group
-from ..object_properties import has_properties, object_properties
+from ..object_properties import has_properties, object_properties, users_of
 from .handle import Handle
-from .own_pose import SMALLEST_SCALE, Pose, check_pose, has_pose, own_pose, pose_since_baked
+from .own_pose import Pose, check_pose, has_pose, is_invertible, own_pose, pose_since_baked
 
 if TYPE_CHECKING:
     from .properties import CubicCraftHandle
@@ -217,10 +217,8 @@ def _is_in_a_scene(target):
 
 
 def _check_invertible(matrix, obj, target):
-    if np.isfinite(matrix).all():
-        sizes = np.linalg.svd(matrix[:3, :3], compute_uv=False)
-        if sizes[-1] > SMALLEST_SCALE * sizes[0]:
-            return
+    if is_invertible(matrix):
+        return
     whose = "it" if target == obj else f'"{target.name}"'
     raise CubicCraftError(
         f'the handles of "{obj.name}" cannot be posed, because {whose} has a scale of zero or'
@@ -289,9 +287,4 @@ def _is_as(handle, other):
 
 
 def _users(mesh):
-    users = bpy.data.user_map(subset=[mesh])[mesh]
-    return [
-        user
-        for user in users
-        if isinstance(user, bpy.types.Object) and user.is_editable and has_properties(user)
-    ]
+    return filter(has_properties, users_of([mesh]))

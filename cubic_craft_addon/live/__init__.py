@@ -6,9 +6,11 @@
 """
 
 from dataclasses import replace
+from typing import Any
 
 import bpy
 
+from ..handles.owner import panel_object
 from ..object_properties import object_properties
 from ..settings.properties import settings_of
 from ..settings.values import Settings
@@ -35,6 +37,12 @@ def begin(context, objects) -> Session:
 def current() -> Session | None:
     """Return the running session, or None."""
     return None if _session is None or _session.is_ended else _session
+
+
+def panel_mesh(context: bpy.types.Context) -> Any:
+    """Return the mesh object whose settings the panel shows, None if it shows none."""
+    session = current()
+    return panel_object(context) or (session and session.first_object(context))
 
 
 def shared_properties(obj: bpy.types.Object):

@@ -94,7 +94,7 @@ class FollowedMesh(LiveMesh):
         follower = self._follower.find()
         return None if follower is None else mesh_bridge.mesh_of(follower)
 
-    def join(self, run: StepwiseRun | None) -> None:
+    def join(self, run: StepwiseRun) -> None:
         """Take part in a run that has read the present shape."""
         super().join(run)
         self.is_moved, self.is_like, self._is_stale = False, True, False
@@ -162,16 +162,10 @@ class FollowedMesh(LiveMesh):
     def keep_solved(self, original: np.ndarray | None = None) -> None:
         """Keep the solution that is seen, before its run is given up."""
         original = self.original if original is None else original
-        run = self.run
-        if (
-            self._is_stale
-            or self._solved is not None
-            or run is None
-            or run.moment is None
-            or original is None
-        ):
+        is_kept = self._is_stale or self._solved is not None
+        if is_kept or self.run.moment is None or original is None:
             return
-        found = run.intermediate_result(self.object_uid, with_rotations=True)
+        found = self.run.intermediate_result(self.object_uid, with_rotations=True)
         if found is None or found[1] is None or found[0].shape != original.shape:
             return
         self._solved = _Solved(found[0], found[1], original)
@@ -194,8 +188,7 @@ class FollowedMesh(LiveMesh):
 
     def _change(self):
         self.is_moved, self._is_stale, self.member = True, True, None
-        if self.run is not None:
-            self.run.hold()
+        self.run.hold()
 
     def _glance(self, obj):
         if not self.is_as_seen:
@@ -218,8 +211,7 @@ class FollowedMesh(LiveMesh):
             return False
         if len(mesh.vertices) != len(solved.positions) or not np.isfinite(self.original).all():
             return False
-        run = self.run
-        noted = {"values": values, "run": run.outcome} if run and run.is_started else None
+        noted = {"values": values, "run": self.run.outcome} if self.run.is_started else None
         carried, has_edges = solved.carried(self.original), mesh_bridge.are_wanted(obj, values)
         self._preview.show(mesh, carried, solved.rotations, noted, has_edges)
         return True

@@ -24,6 +24,7 @@ _STEP, _FARTHEST = 1.1, 4.0  # by which a view in perspective asks for a larger 
 _DEFORMING_PARENTS = ("ARMATURE", "LATTICE", "CURVE")
 MODIFIER = "Beside"
 """name of the modifiers that show a follower beside its own place"""
+_MARK = "cubic_craft_follower"
 
 
 def shift_beside(objects: Iterable[bpy.types.Object]) -> Vector:
@@ -134,9 +135,6 @@ def _seen_at(view, points):
     """Return the places of points (n,3) from left to right; None if one is behind the view."""
     seen = np.c_[points, np.ones(len(points))] @ np.array(view.perspective_matrix).T
     return seen[:, 0] / seen[:, 3] if (seen[:, 3] > 0).all() else None
-
-
-_MARK = "cubic_craft_follower"
 
 
 class Follower:

@@ -27,8 +27,8 @@ class LiveMesh:
     Attributes
     ----------
     object_uid, mesh_uid : int
-    run : StepwiseRun or None
-        The run that it takes part in.
+    run : StepwiseRun
+        The run that it takes part in; an idle one if it takes part in none.
     member : Member or None
         The data last read from it.
     """
@@ -39,7 +39,7 @@ class LiveMesh:
     def __init__(self, task: Task, is_shown: bool):
         self.object_uid = task.uid
         self.mesh_uid = task.mesh.session_uid
-        self.run: StepwiseRun | None = None
+        self.run = StepwiseRun()
         self.member: Member | None = None
         self._is_shown = is_shown
         self._start: mesh_bridge.Start = task.settings.start
@@ -48,34 +48,14 @@ class LiveMesh:
         self._ease = Ease()
 
     @property
-    def is_working(self):
-        """Whether there is more to compute."""
-        return self.run is not None and self.run.is_working
-
-    @property
-    def iterations(self):
-        """Number of iterations done."""
-        return self.run.iterations if self.run else 0
-
-    @property
-    def status(self):
-        """Status lines, from long to short, and the fraction done, from 0 to 1."""
-        return self.run.status if self.run else (("",), 0.0)
-
-    @property
-    def numbers(self):
-        """The iteration and the energy as a text, or an empty one."""
-        return self.run.numbers if self.run else ""
-
-    @property
     def solution(self):
         """The result, once the run has ended."""
-        return self.run.solution_of(self.object_uid) if self.run else None
+        return self.run.solution_of(self.object_uid)
 
     @property
     def solution_so_far(self):
         """The current shape as a result, None if nothing of it can be shown yet."""
-        return self.run.solution_so_far(self.object_uid) if self.run else None
+        return self.run.solution_so_far(self.object_uid)
 
     @property
     def is_seen(self):
@@ -100,10 +80,10 @@ class LiveMesh:
         """Return the mesh on which it shows the run of an object."""
         return mesh_bridge.mesh_of(obj)
 
-    def join(self, run: StepwiseRun | None) -> None:
-        """Take part in a run that has just been started, or in none."""
+    def join(self, run: StepwiseRun) -> None:
+        """Take part in a run that has just been started, or is idle."""
         self.run = run
-        self.member = (run and run.member_of(self.object_uid)) or self.member
+        self.member = run.member_of(self.object_uid) or self.member
         self._shown_moment = None
 
     def follow(self, task: Task) -> None:
@@ -119,8 +99,7 @@ class LiveMesh:
             is_like = False  # reading it again will report the reason
         if not is_like:
             self.member = None
-            if self.run is not None:
-                self.run.forget()
+            self.run.forget()
 
     def begin_preview(self, obj: bpy.types.Object, beside: Sequence[bpy.types.Object]) -> None:
         """Keep what the preview will overwrite, on the mesh itself.
@@ -158,7 +137,7 @@ class LiveMesh:
         `values` are the settings, for a file that is opened with this shape.
         """
         mesh = self.shows_on(obj)
-        if self._preview is None or self.run is None or mesh is None or not self._is_new:
+        if self._preview is None or mesh is None or not self._is_new:
             return False
         is_next, self._shown_moment = self._shown_moment != self.run.moment, self.run.moment
         found = self.run.intermediate_result(self.object_uid, self._preview.needs_rotations)
@@ -180,7 +159,7 @@ class LiveMesh:
 
     @property
     def _is_new(self):
-        moment = None if self.run is None else self.run.moment
+        moment = self.run.moment
         return moment is not None and (moment != self._shown_moment or self._ease.is_on)
 
     def take_along(self, obj: bpy.types.Object) -> bool:
@@ -193,7 +172,7 @@ class LiveMesh:
 
     def release(self) -> None:
         """Release all arrays."""
-        self._preview = self.member = self.run = None
+        self._preview, self.member, self.run = None, None, StepwiseRun()
         self._ease.forget()
 
 

@@ -59,7 +59,7 @@ class LiveRuns:
                 _join(uids, run, meshes)
         for mesh in meshes:
             if mesh.run not in self._runs.values():
-                mesh.join(None)
+                mesh.join(StepwiseRun())
 
     def restart_painted(self, groups: Groups, meshes: Sequence[LiveMesh]) -> bool:
         """Restart the runs whose vertex groups have new weights; return whether there were any."""
@@ -174,7 +174,7 @@ def _moved(meshes):
 
 
 def _runs_of(meshes):
-    return list({id(mesh.run): mesh.run for mesh in meshes if mesh.run is not None}.values())
+    return list({id(mesh.run): mesh.run for mesh in meshes}.values())
 
 
 def _seconds(run):

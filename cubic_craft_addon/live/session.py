@@ -311,7 +311,7 @@ class Session:
 
     def _is_too_young(self, now):
         """Return whether the runs have yet to be shown; otherwise a drag would show nothing."""
-        working = [mesh for mesh in self.meshes if mesh.is_working]
+        working = [mesh for mesh in self.meshes if mesh.run.is_working]
         is_seen = all(mesh.is_seen for mesh in working)
         return working and not (is_seen and now - self._last_restart >= _LEAST_LIFE)
 

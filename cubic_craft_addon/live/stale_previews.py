@@ -14,7 +14,7 @@ from bpy.app.handlers import persistent
 
 from .. import mesh_bridge
 from ..environment.handlers import install, remove
-from ..object_properties import object_properties
+from ..object_properties import object_properties, users_of
 from ..run.failures import UNEXPECTED
 from ..run.up_to_date import what_matters
 from ..screen import glimpse
@@ -67,8 +67,7 @@ def leave(follower: bpy.types.Object) -> None:
 def _keep_one(mesh: bpy.types.Mesh, outcome: Any) -> None:
     """Make the shape that is seen a result, with the settings that it was made with."""
     values = {name: value for name, value in outcome["values"].items() if name in ALL}
-    users = bpy.data.user_map(subset=[mesh])[mesh]
-    objects = [u for u in users if isinstance(u, bpy.types.Object) and u.is_editable]
+    objects = list(users_of([mesh]))
     if not objects or values["result"] != "MESH":
         return
     start = object_properties(objects[0]).start

@@ -18,6 +18,8 @@ from . import elsewhere
 from .live_mesh import LiveMesh
 from .plan import Plan
 
+_log = logging.getLogger(__name__)
+
 
 def write_for_file(
     overrides: SettingsOverrides, tasks: Sequence[Task]
@@ -46,9 +48,6 @@ def write_for_file(
 
 def _loses_key(task):
     return task.settings.result == "MESH" and mesh_bridge.find_cubic_key(task.mesh) is not None
-
-
-_log = logging.getLogger(__name__)
 
 
 class Written:

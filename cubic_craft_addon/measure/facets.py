@@ -24,6 +24,9 @@ from ..settings.values import Settings
 
 _LEAST_SHARE = 0.25
 """of a region: a triangle with less does not face its sides"""
+_IN_PLANE = 1e-6  # of the largest extent: vertices closer to a mirror than this lie in it
+_OF_THE_RUN = ("orientation", "space", "form", "form_sides", "form_weights", "form_directions")
+"""settings that a result has been made with, whatever the panel shows now"""
 
 
 def form_directions(style: Style) -> np.ndarray:
@@ -49,11 +52,6 @@ def directions_at(
     part = np.repeat(np.arange(len(found)), [len(some) for some in found])
     is_there = shares[triangles].mean(axis=1) >= _LEAST_SHARE
     return np.concatenate(found), is_there[:, part]
-
-
-_IN_PLANE = 1e-6  # of the largest extent: vertices closer to a mirror than this lie in it
-_OF_THE_RUN = ("orientation", "space", "form", "form_sides", "form_weights", "form_directions")
-"""settings that a result has been made with, whatever the panel shows now"""
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,14 @@ First*).
 from .access.any_mode import flush, glance, in_no_mode, remove_copy
 from .access.arrays import corner_vertices, read_position, read_values
 from .access.attributes import carried_attributes
-from .access.checks import check_editable, check_relative_keys, check_usable, mesh_of, why_no_mesh
+from .access.checks import (
+    check_editable,
+    check_relative_keys,
+    check_usable,
+    is_linked,
+    mesh_of,
+    why_no_mesh,
+)
 from .access.dress import dress_of
 from .access.group_names import set_groups_aside
 from .access.sharp_edges import (

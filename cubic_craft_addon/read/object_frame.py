@@ -21,6 +21,9 @@ from ..settings.values import Settings
 
 _SAME = 1e-6  # of the elements of a matrix: less is a pose at rest
 _CARRYING = {"ARMATURE", "CHILD_OF", "COPY_TRANSFORMS"}
+_SMALLEST_STRETCH = 1e-4  # relative; flatter objects are solved unscaled
+_DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
+_SMALLEST_TURN = 1e-6  # radians; smaller rotations of the cube are ignored
 
 
 def world_at_rest(obj: bpy.types.Object) -> Matrix:
@@ -74,11 +77,6 @@ def _is_deforming(rig):
         if obj.type == "MESH"
         for modifier in obj.modifiers
     )
-
-
-_SMALLEST_STRETCH = 1e-4  # relative; flatter objects are solved unscaled
-_DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
-_SMALLEST_TURN = 1e-6  # radians; smaller rotations of the cube are ignored
 
 
 def placements(

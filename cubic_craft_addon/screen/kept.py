@@ -18,6 +18,8 @@ T = TypeVar("T")
 
 MOST = 2
 """objects of which it is kept: windows may show different scenes"""
+PAUSE = 0.2
+"""seconds without a redraw that asks for it"""
 _OUTDATED = object()  # no key is equal to it
 
 
@@ -122,10 +124,6 @@ def unregister():
     """Listen no longer."""
     handlers.remove(_HANDLERS)
     _forget()
-
-
-PAUSE = 0.2
-"""seconds without a redraw that asks for it"""
 
 
 class FoundLater(Kept[T]):

@@ -64,12 +64,14 @@ def wrapped(text: str, room: float) -> list[str]:
     return lines
 
 
-def draw_wrapped(context: bpy.types.Context, column: Any, text: str, icon: Any) -> None:
-    """Draw a text in a box, in as many lines as it needs, with an icon at the first.
+def draw_wrapped(
+    context: bpy.types.Context, column: Any, text: str, icon: Any = "NONE", taken: float = _BOX
+) -> None:
+    """Draw a text, in as many lines as it needs, with an icon at the first.
 
-    `context`: of a panel that is being drawn. `column`: an aligned column of the box. `icon`: name
-    of the icon.
+    `context`: of a panel that is being drawn. `column`: an aligned column, of a box by default.
+    `icon`: name of the icon. `taken`: as of `room_for_text`, of a box with an icon by default.
     """
-    for line in wrapped(text, room_for_text(context, _BOX)):
+    for line in wrapped(text, room_for_text(context, taken)):
         column.label(text=line, icon=icon)
-        icon = "BLANK1"
+        icon = "NONE" if icon == "NONE" else "BLANK1"

@@ -12,6 +12,10 @@ from mathutils.bvhtree import BVHTree
 from ...solver import CubicCraftError
 from ..mesh_bridge import read_values
 
+_SLACK = 1.05  # rays start this much farther out than the surfaces are apart
+_LEAST = 1e-4  # of the largest extent
+_SAMPLES = 50_000  # points on each surface at most that are measured
+
 
 class Studio:
     """Objects and settings that are gone when the work is done."""
@@ -65,11 +69,6 @@ def studio() -> Iterator[Studio]:
         yield Studio(scene)
     finally:
         bpy.data.scenes.remove(scene)
-
-
-_SLACK = 1.05  # rays start this much farther out than the surfaces are apart
-_LEAST = 1e-4  # of the largest extent
-_SAMPLES = 50_000  # points on each surface at most that are measured
 
 
 def check_cycles() -> None:

@@ -14,8 +14,15 @@ from ...solver.console.output import InputError, replacing
 from .. import mesh_bridge
 from ..environment.scene_state import frame_kept, only_selected
 from .closed import find_faults
-from .marks import marks_of
+from .marks import armatures_of, marks_of
 from .targets import TARGETS, Options, exporter, settings
+
+_MILLIMETERS = 1000.0  # in a meter
+SCALES = (
+    ("SCENE", "Scene Unit", "As large as in the scene: a meter becomes 1000 mm"),
+    ("MILLIMETERS", "Millimeters", "A unit of Blender becomes a millimeter"),
+    ("SIZE", "Longest Side", "The longest side of everything that is written has a given length"),
+)
 
 
 @dataclass
@@ -73,7 +80,7 @@ def ready(target: str, objects: list[bpy.types.Object], options: Options) -> Ite
         facts.append(_check_printable(objects, options.scale, problems))
     chosen = settings(target, objects, options, is_modified=is_modified)
     posed = [] if kind.is_printed else objects
-    armatures = {armature for obj in posed for armature in _armatures(obj)}
+    armatures = {armature for obj in posed for armature in armatures_of(obj)}
     with contextlib.ExitStack() as stack:
         for obj in {obj.data: obj for obj in objects}.values():
             values, own = marks_of(kind, obj, with_groups=options.with_groups)
@@ -139,14 +146,6 @@ def _check_printable(objects: list[bpy.types.Object], scale: float, problems: li
     return " x ".join(f"{side:,.4g}" for side in size) + " mm"
 
 
-def _armatures(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
-    for modifier in obj.modifiers:
-        if isinstance(modifier, bpy.types.ArmatureModifier) and modifier.object is not None:
-            yield modifier.object
-    if obj.parent is not None and obj.parent.type == "ARMATURE":
-        yield obj.parent
-
-
 def _write(run: Callable[[Path], object], path: Path) -> int:
     """Write under another name first, and return the size of the file."""
     try:
@@ -158,14 +157,6 @@ def _write(run: Callable[[Path], object], path: Path) -> int:
     except InputError as error:
         raise CubicCraftError(str(error)) from error
     return path.stat().st_size
-
-
-_MILLIMETERS = 1000.0  # in a meter
-SCALES = (
-    ("SCENE", "Scene Unit", "As large as in the scene: a meter becomes 1000 mm"),
-    ("MILLIMETERS", "Millimeters", "A unit of Blender becomes a millimeter"),
-    ("SIZE", "Longest Side", "The longest side of everything that is written has a given length"),
-)
 
 
 def scale_of(

@@ -6,6 +6,8 @@ A glTF file splits vertices at seams and hard edges, so it gets the index of eac
 ``_GROUP_NAME`` of glTF, or as colors of FBX. An FBX file keeps the order of vertices itself.
 """
 
+from collections.abc import Iterator
+
 import bpy
 import numpy as np
 
@@ -47,10 +49,17 @@ def marks_of(
     return values, [f'"{obj.name}" keeps its own attribute {VERTEX}'] * (VERTEX in taken)
 
 
+def armatures_of(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
+    """Give the armatures that pose an object."""
+    for modifier in obj.modifiers:
+        if isinstance(modifier, bpy.types.ArmatureModifier) and modifier.object is not None:
+            yield modifier.object
+    if obj.parent is not None and obj.parent.type == "ARMATURE":
+        yield obj.parent
+
+
 def _bones(obj: bpy.types.Object) -> set[str]:
-    armatures = [mod.object for mod in obj.modifiers if isinstance(mod, bpy.types.ArmatureModifier)]
-    armatures += [obj.parent] if obj.parent is not None and obj.parent.type == "ARMATURE" else []
-    datas = [armature.data for armature in armatures if armature is not None]
+    datas = [armature.data for armature in armatures_of(obj)]
     return {
         bone.name for data in datas if isinstance(data, bpy.types.Armature) for bone in data.bones
     }

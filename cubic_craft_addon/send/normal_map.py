@@ -26,6 +26,8 @@ from .few_polygons import few_polygons
 from .properties import IMAGE
 from .split import OldSurface
 
+_ANGLE, _TOLERANCE = math.radians(20.0), 0.02  # the defaults of Flatten Facets
+
 
 class MapMaterials:
     """The materials of a low-poly mesh, with the image as a node that is not connected yet.
@@ -100,9 +102,6 @@ class MapMaterials:
         material.node_tree.nodes.active = texture
         self._nodes.append((material, texture))
         return material
-
-
-_ANGLE, _TOLERANCE = math.radians(20.0), 0.02  # the defaults of Flatten Facets
 
 
 @dataclass(frozen=True)
@@ -220,11 +219,15 @@ def _make(
     return NormalMap(new, image, apart, problems)
 
 
-def _mesh_of_result(stage: Studio, obj: bpy.types.Object, positions: np.ndarray) -> bpy.types.Mesh:
+def _mesh_of_result(
+    stage: Studio, obj: bpy.types.Object, positions: np.ndarray, *, has_own_normals: bool = True
+) -> bpy.types.Mesh:
     """Return a new mesh: the result with its modifiers, but not posed."""
     copy = stage.take(mesh_bridge.plain_copy(obj, positions))
     try:
         _remove_modifiers(copy, are_armatures=True)
+        if not has_own_normals:
+            low_poly.forget_normals(stage, copy)
         return stage.evaluated_mesh(copy)
     finally:
         mesh_bridge.remove_copy(copy)
@@ -263,13 +266,7 @@ def _low_mesh(
 
     `surface`: the result with its modifiers, and its shape keys.
     """
-    copy = stage.take(mesh_bridge.plain_copy(obj, positions))
-    try:
-        _remove_modifiers(copy, are_armatures=True)
-        low_poly.forget_normals(stage, copy)
-        present = stage.evaluated_mesh(copy)
-    finally:
-        mesh_bridge.remove_copy(copy)
+    present = _mesh_of_result(stage, obj, positions, has_own_normals=False)
     try:
         if placement is not None:
             few_polygons(present, placement, triangles)

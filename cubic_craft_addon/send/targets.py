@@ -50,6 +50,13 @@ def exporter(target: str) -> Any:
     return operator
 
 
+def check_exporter(suffix: str) -> None:
+    """Raise a CubicCraftError if this Blender cannot write files that end so."""
+    target = target_of(suffix)
+    if TARGETS[target].operator:
+        exporter(target)
+
+
 def target_of(suffix: str) -> str:
     """Return the one of `TARGETS` whose files end so."""
     return next(key for key, target in TARGETS.items() if suffix.lower() in target.suffixes)

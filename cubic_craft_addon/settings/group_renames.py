@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Handles, regions and the cubeness map follow when their vertex group is renamed.
+"""Handles, regions and painted maps follow when their vertex group is renamed.
 
 Settings refer to a vertex group by its name, and Blender does not report the old name. The
 names are therefore compared after each update of an object: one that has changed while all others
@@ -19,6 +19,7 @@ from .. import mesh_bridge
 from ..environment import handlers
 from ..object_properties import has_properties, object_properties
 
+_MAPS = ("map_group", "detail_group")
 _names: dict[str, tuple[str, ...]] = {}
 """last known names of the vertex groups, by the full name of the object"""
 _renames: dict[str, dict[str, str]] = {}
@@ -51,7 +52,8 @@ def _follow(obj):
         return
     properties = object_properties(obj)
     parts = [*properties.handles, *properties.regions]
-    if not parts and not properties.map_group:
+    named = [(properties, name) for name in _MAPS] + [(part, "group") for part in parts]
+    if not any(getattr(settings, name) for settings, name in named):
         return
     key = obj.name_full
     names = tuple(group.name for group in obj.vertex_groups)
@@ -62,7 +64,7 @@ def _follow(obj):
     renames = _renames.get(key)
     if not renames:
         return
-    for settings, name in ((properties, "map_group"), *((part, "group") for part in parts)):
+    for settings, name in named:
         old = getattr(settings, name)
         new = _name_now(old, names, renames)
         if new != old:

@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from ..object_properties import PROPERTY, has_properties, object_properties
+from ..object_properties import PROPERTY, has_properties, object_properties, users_of
 from ..screen import glimpse
 
 _DERIVED = ("preset",)  # derived from the others: setting it would set them
@@ -51,12 +51,9 @@ def copy_settings(source: bpy.types.Object, target: bpy.types.Object) -> None:
 
 
 def _read_all(meshes: Iterable[bpy.types.Mesh]) -> list[tuple[bpy.types.Object, Any]]:
-    users = bpy.data.user_map(subset=list(meshes)).values()
-    objects = {user for some in users for user in some if isinstance(user, bpy.types.Object)}
     return [
         (obj, [_read(group) for group in _groups(obj)] if has_properties(obj) else None)
-        for obj in objects
-        if obj.is_editable
+        for obj in users_of(meshes)
     ]
 
 

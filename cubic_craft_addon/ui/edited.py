@@ -16,7 +16,7 @@ from ..environment.modes import MODES
 from ..object_properties import object_properties
 from ..run.posed_anew import is_posed_anew
 from ..screen.kept import Kept
-from ..screen.text_fit import room_for_text, wrapped
+from ..screen.text_fit import draw_wrapped
 
 _REPLACED = "This shape replaces the original. Restore First brings that back until Apply"
 _LOST = (
@@ -54,7 +54,7 @@ def draw(context: bpy.types.Context, layout: bpy.types.UILayout, obj: bpy.types.
         return
     mesh = mesh_bridge.mesh_of(obj)
     if is_lost(mesh):
-        _draw_text(context, layout.box(), _LOST)
+        draw_wrapped(context, layout.box(), _LOST, taken=_BOX)
         return
     if not has_edits(mesh):
         return
@@ -65,9 +65,9 @@ def draw(context: bpy.types.Context, layout: bpy.types.UILayout, obj: bpy.types.
     column.use_property_split = False
     column.prop(properties, "start", expand=True)
     if properties.start == "HERE":
-        _draw_text(context, box, _REPLACED)
+        draw_wrapped(context, box, _REPLACED, taken=_BOX)
     elif _found_out(mesh, _posed, lambda _: is_posed_anew(obj)):
-        _draw_text(context, box, _POSED)
+        draw_wrapped(context, box, _POSED, taken=_BOX)
 
 
 def has_edits(mesh: bpy.types.Mesh) -> bool:
@@ -95,8 +95,3 @@ def _found_out(mesh, kept, find_out):
         return kept.keep(mesh.session_uid, find_out(mesh))
     except CubicCraftError:
         return False
-
-
-def _draw_text(context, layout, text):
-    for line in wrapped(text, room_for_text(context, _BOX)):
-        layout.label(text=line)

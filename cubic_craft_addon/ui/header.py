@@ -14,7 +14,6 @@ from typing import Any
 import bpy
 
 from .. import job, live
-from ..handles.owner import panel_object
 from ..mesh_bridge import last_run
 from ..run.up_to_date import changes_since
 from . import buttons
@@ -68,8 +67,7 @@ def _look(context):
     """Return whether the settings have changed, Live runs and Cubify runs; None for no buttons."""
     if not is_scrolled(context.area, context.preferences.system.ui_scale):
         return None
-    session = live.current()
-    obj = panel_object(context) or (session and session.first_object(context))
+    session, obj = live.current(), live.panel_mesh(context)
     if obj is None:
         return None
     run = last_run(obj)

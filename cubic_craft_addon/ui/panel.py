@@ -14,14 +14,13 @@ from ..form import overlay as form_overlay
 from ..form import panel as form_panel
 from ..form.settings import check_directions, check_form_object
 from ..handles import panel as handles_panel
-from ..handles.owner import panel_object
 from ..mesh_bridge import last_run
 from ..object_properties import object_properties
 from ..presets import panel as presets_panel
 from ..read.object_frame import check_frame
 from ..regions import panel as regions_panel
 from ..run.up_to_date import changes_since
-from ..screen.text_fit import draw_wrapped, is_narrow, room_for_text, wrapped
+from ..screen.text_fit import draw_wrapped, is_narrow
 from ..send import panel as send_panel
 from ..settings.properties import settings_of
 from ..worn import panel as worn
@@ -52,8 +51,7 @@ class CUBIC_CRAFT_PT_main(bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = not is_narrow(context)
         layout.use_property_decorate = False
-        session = live.current()
-        obj = panel_object(context) or (session and session.first_object(context))
+        obj = live.panel_mesh(context)
         if obj is None:
             _draw_other(context, layout)
             return
@@ -173,11 +171,10 @@ def _draw_solver(layout, obj):
     draw_solver(layout, properties)
     session = live.current()
     mesh = session.mesh_of(obj) if session else None
-    if mesh is not None and mesh.numbers:
-        layout.label(text=mesh.numbers)
+    if mesh is not None and mesh.run.numbers:
+        layout.label(text=mesh.run.numbers)
     if engine_note():
-        for line in wrapped(engine_note(), room_for_text(bpy.context)):
-            layout.label(text=line)
+        draw_wrapped(bpy.context, layout, engine_note(), taken=0.0)
 
 
 _SECTIONS = (

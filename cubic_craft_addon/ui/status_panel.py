@@ -12,7 +12,7 @@ from ...solver.console.crossing_words import crossing_words
 from .. import job, live, mesh_bridge
 from ..environment.modes import is_mode_usable
 from ..mesh_bridge import LastRun
-from ..screen.text_fit import longest_that_fits, room_for_text, wrapped
+from ..screen.text_fit import draw_wrapped, longest_that_fits, room_for_text
 from . import buttons, edited
 
 _SECTION = "CUBIC_CRAFT_PT_last_run"
@@ -49,7 +49,7 @@ def _draw_line(context, layout, obj, run, changes):
         if mesh is None:
             layout.label(text=longest_that_fits(("Another mesh is live", "Not live"), room))
         else:
-            texts, progress = mesh.status
+            texts, progress = mesh.run.status
             layout.progress(text=longest_that_fits(texts, room), factor=progress)
         return
     room -= _ICON * _ARROW
@@ -101,9 +101,7 @@ def _draw_numbers(context, layout, run, changes):
         title.label(text=name)
         split.label(text=value(run) if run else "-")
     if run is not None and changes:
-        text = f"Changed since: {', '.join(changes)}"
-        for line in wrapped(text, room_for_text(context)):
-            column.label(text=line)
+        draw_wrapped(context, column, f"Changed since: {', '.join(changes)}", taken=0.0)
 
 
 def _vertices(run, unit=" vertices"):

@@ -11,8 +11,9 @@ from typing import Any
 
 from solver.console.crossing_words import end_words
 from solver.console.interruption import end_on_signals
-from solver.console.output import InputError, check_folder, check_place, replacing
+from solver.console.output import InputError, check_folder, check_place, refusals_of, replacing
 from solver.console.report import DONE, FAILED, counts_of, in_words, write_batch
+from solver.console.sources import check_source, find_sources, listing, make_folder
 
 from .arguments import FORMATS, parse
 
@@ -76,19 +77,25 @@ def _jobs(options: Namespace) -> tuple[list[tuple[str, str]], Counter[str]]:
     And how many files of which kinds lie in the folders that were given, but are none that can be
     read.
     """
-    inputs, kinds = _surfaces(options.inputs)
-    output, is_batch = options.output, inputs != options.inputs or len(inputs) > 1
-    jobs = [(inputs[0], output)]
-    if is_batch or Path(output).is_dir():
-        jobs = [(source, str(Path(output) / Path(source).name)) for source in inputs]
+    given = [Path(path) for path in options.inputs]
+    found, kinds = find_sources(given, FORMATS, "give another folder")
+    inputs, output = [path for path, _ in found], Path(options.output)
+    is_batch = inputs != given or len(inputs) > 1
+    jobs = [(str(inputs[0]), options.output)]
+    if is_batch or output.is_dir():
+        jobs = [(str(source), str(output / source.name)) for source in inputs]
     written: set[str] = set()
     for source, target in jobs:
-        _check_kinds(source, target)
+        check_source(Path(source), FORMATS)
+        if Path(target).suffix.lower() not in FORMATS:
+            raise InputError(f"{target}: the name must end in {listing(FORMATS)}")
         if target in written:
             raise InputError(f"{target}: two inputs have this name; give them one by one")
         written.add(target)
     if is_batch:
-        _make_folder(Path(output))
+        if output.is_file():
+            raise InputError(f"{output}: is a file; several results need a folder")
+        make_folder(str(output), output)
     for source, target in jobs:
         _check_output(source, target)
     if options.report:
@@ -96,44 +103,6 @@ def _jobs(options: Namespace) -> tuple[list[tuple[str, str]], Counter[str]]:
         if options.report.suffix.lower() != ".json":
             raise InputError(f"--report {options.report}: the name must end in .json")
     return jobs, kinds
-
-
-def _surfaces(inputs: list[str]) -> tuple[list[str], Counter[str]]:
-    """Return the inputs with the files of folders in their place, in order of name."""
-    found, kinds = [], Counter()
-    for given in inputs:
-        if not Path(given).is_dir():
-            found.append(given)
-            continue
-        paths = [p for p in sorted(Path(given).iterdir()) if p.name[0] != "." and p.is_file()]
-        own = [str(path) for path in paths if path.suffix.lower() in FORMATS]
-        left_out = Counter(p.suffix.lower() for p in paths if p.suffix.lower() not in FORMATS)
-        if not own:
-            only = f", only {in_words(left_out)}" if left_out else ""
-            kinds = ", ".join(FORMATS)
-            raise InputError(f"{given}: there are no surfaces in this folder{only}; give {kinds}")
-        found += own
-        kinds += left_out
-    return found, kinds
-
-
-def _make_folder(folder: Path) -> None:
-    if folder.is_file():
-        raise InputError(f"{folder}: is a file; several results need a folder")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"{folder}: cannot be made ({reason}); choose another") from error
-
-
-def _check_kinds(source: str, output: str) -> None:
-    for path in map(Path, (source, output)):
-        if path.suffix.lower() not in FORMATS:
-            kind = f"{path.suffix!r} files" if path.suffix else "files without a suffix"
-            raise InputError(f"{path}: {kind} are not supported; give {', '.join(FORMATS)}")
-    if not Path(source).exists():
-        raise InputError(f"{source}: there is no such file; check the path")
 
 
 def _check_writable(path: Path) -> None:
@@ -161,10 +130,8 @@ def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], 
 
     begin = time.perf_counter()
     file = scene_file.read(Path(source))
-    try:
+    with refusals_of(source):
         result = stylized(file.points, file.faces, options)
-    except InputError as error:
-        raise InputError(f"{source}: {error}") from None
     with replacing(Path(output)) as temporary:
         try:
             notes = scene_file.write(file, temporary, result.positions, result.rotations)

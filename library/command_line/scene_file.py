@@ -5,7 +5,6 @@ trimesh drops bones, animations and morph targets. glTF files with such are refu
 command keeps them.
 """
 
-import stat
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +20,7 @@ from .obj_text import ObjText
 
 GLTF = (".glb", ".gltf")
 _DROPPED = {b'"skins":': "bones", b'"animations":': "animations", b'"targets":': "morph targets"}
+_LARGEST = 1e75  # the fourth power is finite
 
 
 class SceneFile:
@@ -107,7 +107,6 @@ def _export_gltf(scene: Any, path: Path) -> None:
 
 
 MeshFile = ObjText | SceneFile
-_LARGEST = 1e75  # the fourth power is finite
 
 
 def read(path: Path) -> MeshFile:
@@ -116,8 +115,6 @@ def read(path: Path) -> MeshFile:
     Raises InputError: it is missing or cannot be read, or is no surface.
     """
     try:
-        if not stat.S_ISREG(path.stat().st_mode):
-            raise InputError("is a device or a pipe; give a file")
         if not path.stat().st_size:
             raise InputError("the file is empty; export it again")
         file = (ObjText if path.suffix.lower() == ".obj" else SceneFile)(path)

@@ -9,7 +9,6 @@ from scipy.spatial.transform import Rotation
 from solver import CubicCraftError, Result, stylize
 from solver.aliases import Faces
 from solver.console.method_options import settings_from
-from solver.console.output import InputError
 from solver.method import IN_LIBRARY, Method
 from solver.proxy.options import proxy_of
 from solver.styles import forms
@@ -18,7 +17,7 @@ from solver.styles import forms
 def stylized(points: np.ndarray, faces: Faces, options: Namespace) -> Result:
     """Return the result for a surface of points (n,3) and faces, of any numbers of corners.
 
-    Raises InputError: the solver refuses the mesh or an option; the message lacks the path.
+    Raises CubicCraftError: the solver refuses the mesh or an option.
     """
     method = Method(**settings_from(vars(options), *IN_LIBRARY))
     try:
@@ -36,10 +35,8 @@ def stylized(points: np.ndarray, faces: Faces, options: Namespace) -> Result:
             device=options.device,
             keep_rotation=method.rotation == "KEEP",
         )
-    except CubicCraftError as error:
-        raise InputError(str(error)) from error
     except MemoryError:
-        raise InputError("there is not enough memory for it") from None
+        raise CubicCraftError("there is not enough memory for it") from None
 
 
 def orientation_of(degrees: list[float]) -> np.ndarray | None:

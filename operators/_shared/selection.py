@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which objects an operator works on."""
 
-from typing import Any
-
 from ...cubic_craft_addon import job, live, mesh_bridge
 from ...cubic_craft_addon.environment.modes import MESSAGE, is_mode_usable
 from ...cubic_craft_addon.environment.requirements import check_known_requirements
@@ -42,17 +40,11 @@ def poll_idle(operator_class):
     return refuse(operator_class, "Cubify is running; press Esc to cancel it")
 
 
-def panel_mesh(context) -> Any:
-    """Return the mesh object whose settings the panel shows, None if it shows none."""
-    session = live.current()
-    return panel_object(context) or (session and session.first_object(context))
-
-
 def poll_panel_mesh(operator_class, context):
     """Return whether the panel shows a mesh, and set the message if not."""
     if not poll_idle(operator_class):
         return False
-    if panel_mesh(context) is None:
+    if live.panel_mesh(context) is None:
         return refuse(operator_class, "Select a mesh object first")
     return True
 
@@ -72,7 +64,7 @@ def poll_mesh(operator_class, context, modes=("OBJECT",)):
         return refuse(operator_class, "Make a mesh object active first")
     if not obj.is_editable:
         return refuse(operator_class, "The object is linked from another file; make it local")
-    if not obj.data.is_editable:
+    if mesh_bridge.is_linked(obj.data):
         return refuse(operator_class, "The mesh is linked from another file; make it local")
     return True
 

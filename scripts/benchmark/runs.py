@@ -27,6 +27,13 @@ from .shapes import blob
 
 PACKAGES = ("numpy", "scipy", "taichi", "quadrants", "cholespy", "pymeshlab", "bpy")
 _STATUS, _RESET = Path("/proc/self/status"), Path("/proc/self/clear_refs")
+CUBENESS, ITERATIONS = 0.4, 10
+SETTINGS = {"paper": (PAPER, False), "defaults": (ProxyOptions(), True)}
+"""name: how the mesh is prepared, and whether parts keep their rotation"""
+LIMIT_SECONDS = 240.0
+"""after which a run is given up"""
+EVALUATION_STEPS = 30
+"""local steps that evaluate the energy of a given shape"""
 
 
 def machine_line():
@@ -69,15 +76,6 @@ def _peak_bytes():
         return 1024 * int(re.findall(r"VmHWM:\s*(\d+)", _STATUS.read_text())[0])
     unit = 1 if sys.platform == "darwin" else 1024
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
-
-
-CUBENESS, ITERATIONS = 0.4, 10
-SETTINGS = {"paper": (PAPER, False), "defaults": (ProxyOptions(), True)}
-"""name: how the mesh is prepared, and whether parts keep their rotation"""
-LIMIT_SECONDS = 240.0
-"""after which a run is given up"""
-EVALUATION_STEPS = 30
-"""local steps that evaluate the energy of a given shape"""
 
 
 def solve(V, F, cubeness, name="paper", **stop):

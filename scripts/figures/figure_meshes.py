@@ -27,8 +27,7 @@ from cubic_craft.cubic_craft_addon.mesh_bridge import original_positions, read_v
 from cubic_craft.cubic_craft_addon.read.member import read_member
 from cubic_craft.cubic_craft_addon.run.pipeline import prepare, solve
 from cubic_craft.cubic_craft_addon.settings.values import Settings
-from cubic_craft.solver.console.output import InputError
-from cubic_craft.solver.errors import CubicCraftError
+from cubic_craft.solver.console.output import refusals_of
 from cubic_craft.solver.method import PAPER
 
 from . import shapes
@@ -163,12 +162,9 @@ class FigureMeshes:
     def _solve_now(self, name: str, settings: Settings) -> np.ndarray:
         model = self._model(name)
         bpy.context.window.scene = model.scene
-        with self._bar.task(f"{name}, cubeness {settings.cubeness:g}") as task:
-            try:
-                member = read_member(model.object, settings)
-                (solution,) = solve(prepare([member]))
-            except CubicCraftError as error:
-                raise InputError(f"{model.path or name}: {error}") from error
+        title = f"{name}, cubeness {settings.cubeness:g}"
+        with self._bar.task(title) as task, refusals_of(model.path or name):
+            (solution,) = solve(prepare([read_member(model.object, settings)]))
             task.finish(f"{solution.result.iterations} iterations, {solution.seconds:.1f} s")
         return solution.positions
 

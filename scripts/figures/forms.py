@@ -4,7 +4,7 @@
 import numpy as np
 
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
-from cubic_craft.cubic_craft_addon.command_line.reading.load_meshes import FormMesh, make_form
+from cubic_craft.cubic_craft_addon.command_line.reading.form_mesh import FormMesh, make_form
 from cubic_craft.cubic_craft_addon.mesh_bridge import shade_shape
 from cubic_craft.cubic_craft_addon.settings.values import Settings
 

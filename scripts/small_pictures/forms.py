@@ -39,6 +39,12 @@ GEM = 0.72
 SHAFT, HEAD, HEAD_LENGTH = 0.09, 0.24, 0.36
 """radii of an arrow, and the length of its head"""
 ARROW_SIDES = 24
+VIEW = (math.radians(64.0), 0.0, math.radians(24.0))
+PICTURE = Picture(size=96, width=2.1, view=VIEW, levels=64, largest_bytes=8_000)
+AMBER, GREY = (0.62, 0.27, 0.06), (0.36, 0.39, 0.44)
+"""linear RGB, of the named forms and of those from other objects"""
+BEVEL = 0.035
+"""so that edges catch the light; of a body that fills the picture"""
 
 
 def body_of(form: str) -> bpy.types.Mesh:
@@ -100,14 +106,6 @@ def _add_arrows(edited: bmesh.types.BMesh, axes: np.ndarray) -> None:
                 depth=high - low,
                 matrix=turn @ middle,
             )
-
-
-VIEW = (math.radians(64.0), 0.0, math.radians(24.0))
-PICTURE = Picture(size=96, width=2.1, view=VIEW, levels=64, largest_bytes=8_000)
-AMBER, GREY = (0.62, 0.27, 0.06), (0.36, 0.39, 0.44)
-"""linear RGB, of the named forms and of those from other objects"""
-BEVEL = 0.035
-"""so that edges catch the light; of a body that fills the picture"""
 
 
 def render_forms(only: list[str] | None, samples: int) -> None:

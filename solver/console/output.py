@@ -15,6 +15,12 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
+from ..errors import CubicCraftError
+
+_LONGEST_STEM = 100  # bytes of it in the name of a temporary file, which must not be too long
+_begins: list[Path] = []  # of the temporary files of this process, without suffix
+_removing = threading.Lock()
+
 
 class InputError(ValueError):
     """Something the user gave cannot be used.
@@ -59,6 +65,15 @@ def errors_of(path: Path) -> Iterator[None]:
         raise InputError(message) from error
 
 
+@contextlib.contextmanager
+def refusals_of(what: object) -> Iterator[None]:
+    """Raise an InputError for a CubicCraftError of a block; `what` is what its message is about."""
+    try:
+        yield
+    except CubicCraftError as error:
+        raise InputError(f"{what}: {error}") from error
+
+
 def move_into_place(temporary: Path, path: Path) -> None:
     """Move what has been written to where it belongs.
 
@@ -67,11 +82,6 @@ def move_into_place(temporary: Path, path: Path) -> None:
     if not temporary.is_file() or not temporary.stat().st_size:
         raise InputError(f"{path}: nothing was written; is the disk full?")
     temporary.replace(path)
-
-
-_LONGEST_STEM = 100  # bytes of it in the name of a temporary file, which must not be too long
-_begins: list[Path] = []  # of the temporary files of this process, without suffix
-_removing = threading.Lock()
 
 
 @contextlib.contextmanager

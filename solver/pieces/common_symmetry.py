@@ -67,13 +67,9 @@ def even_planes(pieces: Sequence[Piece], planes: Sequence[Mirror]) -> list[Mirro
 
 def suits(planes: Sequence[Mirror], positions: FloatArray) -> bool:
     """Return whether partners are images of each other at other positions (N,3), too."""
-    for plane in planes:
-        rows = np.flatnonzero(plane.partner >= 0)
-        apart = plane.image(positions[plane.partner[rows]]) - positions[rows]
-        size = np.ptp(positions[rows], axis=0).max()
-        if np.abs(apart).max() > 2.0 * MATCHING * size:
-            return False
-    return True
+    sizes = [np.ptp(positions[plane.partner >= 0], axis=0).max() for plane in planes]
+    pairs = zip(planes, sizes, strict=True)
+    return all(plane.suits(positions, 2.0 * MATCHING * size) for plane, size in pairs)
 
 
 def _figures(rest, of_vertex, count):

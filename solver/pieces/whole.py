@@ -185,12 +185,8 @@ class Whole:
 
     def suits(self, points: RealArray) -> bool:
         """Return whether partners are images of each other at other positions (n,3), too."""
-        for mirror in self.own_partners:
-            has_one = np.flatnonzero(mirror.partner >= 0)
-            images = mirror.image(points[mirror.partner[has_one]].astype(np.float64))
-            if np.abs(images - points[has_one]).max(initial=0.0) > 2.0 * MATCHING * self._size:
-                return False
-        return True
+        reach = 2.0 * MATCHING * self._size
+        return all(mirror.suits(points, reach) for mirror in self.own_partners)
 
     @property
     def matching(self) -> int | None:

@@ -15,17 +15,17 @@ def orbited(is_at_rest):
     if is_at_rest:
         yield from scene.wait_idle()
     session = scene.live().current()
-    iteration = session.meshes[0].iterations
+    iteration = session.meshes[0].run.iterations
     before = view_matrix()
     start = gui.viewport_point(0.3, 0.4)
     yield from gui.drag(start, (start[0] + 80, start[1] + 40), button="MIDDLEMOUSE")
     yield from gui.wait_until(lambda: view_matrix() != before, what="another view")
     assert scene.live().current() is session
     if not is_at_rest:
-        assert session.meshes[0].iterations > iteration
+        assert session.meshes[0].run.iterations > iteration
     else:
         yield from scene.wait_idle()
-        assert session.meshes[0].iterations == iteration
+        assert session.meshes[0].run.iterations == iteration
 
 
 def draws_in(seconds):

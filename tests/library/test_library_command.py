@@ -113,7 +113,7 @@ def test_each_option_of_the_proxy_reaches_the_solver(given, monkeypatch):
         raise CubicCraftError("as far as this")
 
     monkeypatch.setattr(style, "stylize", watched)
-    with pytest.raises(style.InputError, match="as far as this"):
+    with pytest.raises(CubicCraftError, match="as far as this"):
         style.stylized(V, F, arguments.parse(["in.obj", "out.obj", *given.split()]))
 
 

@@ -15,6 +15,7 @@ from typing import Any
 
 from ....solver.console.output import InputError
 from ....solver.console.report import DONE, FAILED, KEPT, counts_of, in_words, write_batch
+from ....solver.console.sources import make_folder
 from ..options.arguments import Worker
 from ..process.output_files import check_writable
 from ..process.progress import ProgressBar
@@ -139,13 +140,8 @@ def _check(options: Namespace, jobs: list[Job]) -> None:
 
 
 def _make_folders(output_folder: Path, jobs: list[Job]) -> None:
-    try:
-        for folder in {path.parent for job in jobs for path in (*job.outputs, job.record)}:
-            folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        reason = error.strerror or error
-        message = f"--output-folder {output_folder}: cannot be made ({reason}); choose another"
-        raise InputError(message) from error
+    for folder in {path.parent for job in jobs for path in (*job.outputs, job.record)}:
+        make_folder(f"--output-folder {output_folder}", folder)
     for job in jobs:
         check_writable("--output-folder", [*job.outputs, job.record])
 

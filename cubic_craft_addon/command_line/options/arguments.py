@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
 from ....solver.console.method_options import (
-    FORMS,
     Adder,
     OneLineParser,
     add_settings,
@@ -103,8 +102,7 @@ def _add_method(add: Adder) -> None:
     in_scene = {"choices": ("world", "object")}
     add_settings(add, Style, StyleInScene, cubeness=several, space=in_scene)
     add("--form-object", type=Path, metavar="FILE")
-    region = region_option([name for name in FORMS if name != "box"])
-    add("--region", nargs="+", type=region, default=[], metavar="GROUP:FORM:CUBENESS")
+    add("--region", nargs="+", type=region_option, default=[], metavar="GROUP:FORM:CUBENESS")
     add("--capture", type=Path, metavar="FILE")
     add("--pin", nargs="+", default=[], metavar="GROUP")
     add("--handles", dest="handles_file", type=Path, metavar="FILE.json")

@@ -5,8 +5,9 @@ from argparse import Namespace
 from pathlib import Path
 
 from ....solver.console.output import InputError
+from ....solver.console.sources import check_source, listing
 from ..process.output_files import check_writable, meshes, numbered
-from .formats import ANIMATED, FOR_ENGINES, READABLE, WRITABLE, listing
+from .formats import ANIMATED, FOR_ENGINES, READABLE, WRITABLE
 
 
 def check_single(options: Namespace) -> None:
@@ -72,11 +73,8 @@ def check_batch(options: Namespace) -> None:
     _check_bake(options)
     _check_is_something_to_do(options)
     for path in options.inputs:  # a slip of the pen, of which one would hear at the very end
-        if not path.exists():
-            raise InputError(f"{path}: there is no such file or folder; check the path")
         if not path.is_dir():
-            _check_format(path)
-            _refuse_special(path)
+            check_source(path, READABLE)
     if options.save_mesh is not None:
         _check_ending("--save-mesh", options.save_mesh)
         _check_mesh(options, Path(f"name{options.save_mesh}"))
@@ -148,28 +146,13 @@ def _check_ending(option: str, ending: str) -> None:
         )
 
 
-def _check_format(path: Path) -> None:
-    if path.suffix.lower() not in READABLE:
-        kind = f"{path.suffix!r} files" if path.suffix else "files without a suffix"
-        raise InputError(f"{path}: cannot read {kind}; give {listing(READABLE)}")
-
-
 def _check_input(path: Path) -> None:
-    _check_format(path)
-    _refuse_special(path)
+    check_source(path, READABLE)
     try:
         with path.open("rb"):
             pass
-    except FileNotFoundError:
-        raise InputError(f"{path}: there is no such file; check the path") from None
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-
-
-def _refuse_special(path: Path) -> None:
-    """Refuse a device or a pipe, which may have no end."""
-    if path.exists() and not path.is_file() and not path.is_dir():
-        raise InputError(f"{path}: is a device or a pipe; give a file")
 
 
 def _check_outputs(options: Namespace) -> None:

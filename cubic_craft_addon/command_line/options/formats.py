@@ -26,9 +26,3 @@ FOR_ENGINES = _suffixes(is_for_engines=True)
 
 # What is read from these has other vertices than the file: corners are joined.
 RENUMBER_VERTICES = (".stl", ".glb", ".gltf")
-
-
-def listing(suffixes: tuple[str, ...]) -> str:
-    """Suffixes as readable text: ``".obj, .ply or .blend"``."""
-    *others, last = suffixes
-    return f"{', '.join(others)} or {last}" if others else last

@@ -3,7 +3,8 @@
 
 import argparse
 
-from .formats import ANIMATED, READABLE, WRITABLE, listing
+from ....solver.console.sources import listing
+from .formats import ANIMATED, READABLE, WRITABLE
 
 COMMON = (
     *("inputs", "--cubeness", "--form", "--orientation", "--pin", "--crispness", "--detail"),

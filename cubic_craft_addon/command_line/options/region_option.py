@@ -5,8 +5,12 @@ import argparse
 import re
 from typing import NamedTuple
 
+from ....solver.console.method_options import FORMS
 from ....solver.method import SETTINGS, Method
 from ....solver.styles.form_names import WITH_SIDES
+
+_FORMS = [name for name in FORMS if name != "box"]
+"""those that need no further settings than a number of sides"""
 
 
 class GivenRegion(NamedTuple):
@@ -37,22 +41,18 @@ def region_of(text: str) -> GivenRegion:
     return GivenRegion(group, name, sides, value)
 
 
-def region_option(forms):
-    """Return the type of the option: it checks a text, and leaves it as it is for the workers.
+def region_option(text: str) -> str:
+    """Check a text that is given for a region, and leave it as it is for the report.
 
-    `forms`: names of forms that need no further settings than a number of sides.
+    Raises argparse.ArgumentTypeError: it is none.
     """
-
-    def check(text: str) -> str:
-        try:
-            region = region_of(text)
-        except ValueError:
-            raise argparse.ArgumentTypeError(
-                f"{text!r} is not GROUP:FORM:CUBENESS, such as head:octahedron:0.8 or hat:prism5:1"
-            ) from None
-        if region.form not in forms:
-            names = ", ".join(forms)
-            raise argparse.ArgumentTypeError(f"{text!r}: {region.form!r} is none of {names}")
-        return text
-
-    return check
+    try:
+        region = region_of(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not GROUP:FORM:CUBENESS, such as head:octahedron:0.8 or hat:prism5:1"
+        ) from None
+    if region.form not in _FORMS:
+        names = ", ".join(_FORMS)
+        raise argparse.ArgumentTypeError(f"{text!r}: {region.form!r} is none of {names}")
+    return text

@@ -5,18 +5,32 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
 
 from ....solver.console.output import InputError
-from ...mesh_bridge import read_position, read_values
+from ...mesh_bridge import read_position
 from ..process.quiet import captured
 from .finite_check import refuse_infinite
 from .obj_layout import ObjLayout, match_objects, read_layout
 from .seen_objects import is_in_picture, show_as_meshes
+from .weld import weld
+
+LEVELS_OF_MONKEY = 2
+IMPORTERS = {
+    ".obj": "wm.obj_import",
+    ".blend": "wm.open_mainfile",
+    ".ply": "wm.ply_import",
+    ".stl": "wm.stl_import",
+    ".abc": "wm.alembic_import",
+    ".fbx": "wm.fbx_import",
+    **dict.fromkeys((".glb", ".gltf"), "import_scene.gltf"),
+    **dict.fromkeys((".usd", ".usdc", ".usda", ".usdz"), "wm.usd_import"),
+}
+FAR = 1000.0
+"""times its largest extent: there 32 bits round to 6e-5 of the extent"""
 
 
 def operator(name: str, path: Path) -> Callable[..., Any]:
@@ -41,19 +55,6 @@ def reason(error: RuntimeError) -> str:
         own = [line for line in lines[1:] if not line.startswith((" ", "Location:"))]
         return own[-1].rstrip(". ") if own else "an exception in Blender"
     return lines[0].removeprefix("Error: ").rstrip(". ")
-
-
-LEVELS_OF_MONKEY = 2
-IMPORTERS = {
-    ".obj": "wm.obj_import",
-    ".blend": "wm.open_mainfile",
-    ".ply": "wm.ply_import",
-    ".stl": "wm.stl_import",
-    ".abc": "wm.alembic_import",
-    ".fbx": "wm.fbx_import",
-    **dict.fromkeys((".glb", ".gltf"), "import_scene.gltf"),
-    **dict.fromkeys((".usd", ".usdc", ".usda", ".usdz"), "wm.usd_import"),
-}
 
 
 @dataclass
@@ -185,10 +186,6 @@ def _choose(found: list[bpy.types.Object], name: str | None, source: str) -> lis
     return chosen
 
 
-FAR = 1000.0
-"""times its largest extent: there 32 bits round to 6e-5 of the extent"""
-
-
 def warn_if_rounded(path: Path, objects: list[bpy.types.Object]) -> None:
     """Say that meshes are so far from their origins that their shapes were rounded to 32 bits."""
     boxes = [(p.min(axis=0), p.max(axis=0)) for o in objects if len(p := read_position(o.data))]
@@ -200,71 +197,3 @@ def warn_if_rounded(path: Path, objects: list[bpy.types.Object]) -> None:
             f"{np.spacing(np.float32(away)):.2g}; move it to the origin",
             file=sys.stderr,
         )
-
-
-def weld(mesh: bpy.types.Mesh) -> None:
-    """Join vertices with bit-identical coordinates; UVs and normals of the faces stay.
-
-    glTF keeps one normal and one UV per vertex, so every sharp edge and every seam is cut open in
-    the file, and would fall apart. The importer's own merging looks at normals, too.
-    """
-    positions = read_position(mesh) + np.float32(0.0)  # no -0.0, which has other bits
-    keys = np.ascontiguousarray(positions).view("V12").ravel()
-    _, first, place = np.unique(keys, return_index=True, return_inverse=True)
-    if len(first) == len(positions):
-        return
-    normals = read_values(mesh.corner_normals, "vector", width=3)
-    edited = bmesh.new()
-    try:
-        edited.from_mesh(mesh)
-        edited.verts.ensure_lookup_table()
-        targets = first[place.ravel()].tolist()
-        bmesh.ops.weld_verts(
-            edited,
-            targetmap={
-                edited.verts[number]: edited.verts[target]
-                for number, target in enumerate(targets)
-                if number != target
-            },
-        )
-        edited.to_mesh(mesh)
-    finally:
-        edited.free()
-    if len(mesh.loops) == len(normals):  # no face has collapsed
-        mesh.normals_split_custom_set(normals.tolist())
-
-
-class FormMesh(NamedTuple):
-    """All meshes of a file as one, in the axes of the scene, about its origin."""
-
-    points: np.ndarray
-    """(n,3)"""
-    triangles: np.ndarray
-    """(m,3) int"""
-
-
-def read_form(path: Path, verbose: bool) -> FormMesh:
-    """Read the meshes of a file; Blender is empty afterwards.
-
-    Raises InputError: the file cannot be read, or holds no mesh.
-    """
-    points, triangles, count = [], [], 0
-    for obj in load(path, None, verbose).objects:
-        mesh = obj.data
-        mesh.calc_loop_triangles()
-        matrix = np.array(obj.matrix_world)
-        own = read_values(mesh.vertices, "co", width=3).astype(np.float64)
-        points.append(own @ matrix[:3, :3].T + matrix[:3, 3])
-        corners = read_values(mesh.loop_triangles, "vertices", np.int32, width=3)
-        triangles.append(corners[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else corners)
-        triangles[-1] = triangles[-1] + count
-        count += len(own)
-    empty_blender()
-    return FormMesh(np.concatenate(points), np.concatenate(triangles))
-
-
-def make_form(form: FormMesh, name: str = "Form") -> bpy.types.Object:
-    """Make an object that is in no scene, so that nothing of it is written."""
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(form.points.tolist(), [], form.triangles.tolist())
-    return bpy.data.objects.new(name, mesh)

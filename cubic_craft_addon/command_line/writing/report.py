@@ -28,38 +28,26 @@ OPTIONAL_PACKAGES = ("taichi", "quadrants", "scipy", "cholespy", "pyamg")
 
 
 def write_report(
-    path: Path, sculptures: list[Sculpture], options: Namespace, seconds: dict[str, float]
+    path: Path, about: dict[str, Any], options: Namespace, seconds: dict[str, float]
 ) -> None:
     """Write the report as JSON.
 
-    `seconds`: what "load", "write", "render" and "total" took.
+    `about`: from `about_sculptures` or `bake_frames`. `seconds`: what "load", "write", "render" or
+    "bake" took, and "total".
     """
-    report = {
-        **_head(options),
+    report = {**_head(options), **about, "seconds": seconds}
+    if options.worker:  # what tells a batch whether outputs are still of this run
+        sizes = {path.name: path.stat().st_size for path in written(options)}
+        report["made"] = {"for": options.worker.key, "sizes": sizes}
+    write_json(path, report)
+
+
+def about_sculptures(sculptures: list[Sculpture], cubeness: list[float]) -> dict[str, Any]:
+    """Return what the report has of each object at each cubeness."""
+    return {
         "device": sculptures[0].solutions[0].result.device,
-        "objects": [_object(sculpture, options.cubeness) for sculpture in sculptures],
-        "seconds": seconds,
+        "objects": [_object(sculpture, cubeness) for sculpture in sculptures],
     }
-    write_json(path, {**report, **_made(options)})
-
-
-def write_animation_report(
-    path: Path, animation: dict[str, Any], options: Namespace, seconds: dict[str, float]
-) -> None:
-    """Write the report of ``--bake`` as JSON.
-
-    `animation`: from `bake_frames`.
-    """
-    report = {**_head(options), **animation, "seconds": seconds}
-    write_json(path, {**report, **_made(options)})
-
-
-def _made(options: Namespace) -> dict[str, Any]:
-    """Return what tells a batch whether outputs are still of this run."""
-    if not options.worker:
-        return {}
-    sizes = {path.name: path.stat().st_size for path in written(options)}
-    return {"made": {"for": options.worker.key, "sizes": sizes}}
 
 
 def _head(options: Namespace) -> dict[str, Any]:

@@ -10,8 +10,7 @@ from typing import Any
 
 import bpy
 
-from ....solver.console.output import InputError, replacing
-from ....solver.errors import CubicCraftError
+from ....solver.console.output import InputError, refusals_of, replacing
 from ...run import pipeline
 from ...send.file import ready
 from ...send.normal_map import MapOptions, passing_normal_map
@@ -22,6 +21,9 @@ from ..reading.load_meshes import Loaded, reason
 from ..solving.cubify_all import Sculpture
 from .detached import detached_copy
 from .write_obj import write_obj
+
+LEAST = 12
+"""triangles of an object"""
 
 
 def save_meshes(
@@ -58,23 +60,11 @@ def save_meshes(
     return problems
 
 
-def check_exporter(path: Path) -> None:
-    """Raise InputError if this Blender cannot write the format."""
-    target = target_of(path.suffix)
-    if TARGETS[target].operator:
-        try:
-            exporter(target)
-        except CubicCraftError as error:
-            raise InputError(f"{path}: {error}") from error
-
-
 def _send(path: Path, objects: list[bpy.types.Object], verbose: bool) -> list[str]:
     """Write objects as Send does, but with the unit of the file; return what should be known."""
-    try:
-        with ready(target_of(path.suffix), objects, Options(scale=1.0)) as it:
-            _write(path, lambda filepath: it.write(Path(filepath)), verbose)
-    except CubicCraftError as error:
-        raise InputError(f"{path}: {error}") from error
+    options = Options(scale=1.0)
+    with refusals_of(path), ready(target_of(path.suffix), objects, options) as it:
+        _write(path, lambda filepath: it.write(Path(filepath)), verbose)
     return [f"{path}: {problem}" for problem in it.problems]
 
 
@@ -146,10 +136,6 @@ def _export(path: Path, copies: list[bpy.types.Object], verbose: bool) -> None:
         _write(path, export, verbose)
 
 
-LEAST = 12
-"""triangles of an object"""
-
-
 @contextlib.contextmanager
 def low_poly(
     sculptures: list[Sculpture], triangles: int, path: Path
@@ -168,12 +154,10 @@ def low_poly(
             member = sculpture.member
             share = max(LEAST, triangles * member.triangles // total)
             options = MapOptions(triangles=share)
-            try:
+            with refusals_of(path):
                 made = passing.enter_context(
                     passing_normal_map(sculpture.object, member.alone, options)
                 )
-            except CubicCraftError as error:
-                raise InputError(f"{path}: {error}") from error
             objects.append(made.object)
             for user in sculpture.users[1:]:
                 twin = user.copy()

@@ -11,7 +11,7 @@ import numpy as np
 
 from ... import live
 from ...object_properties import object_properties
-from ..own_pose import SMALLEST_SCALE, Pose
+from ..own_pose import Pose, is_invertible
 from ..owner import panel_object
 from ..pose import live_target
 
@@ -74,7 +74,7 @@ def place_of(obj: bpy.types.Object, number: int, middles: Middles) -> Place | No
     # Live may not have noticed a change of the list yet.
     is_seen = handle.group == seen[number].group and live_target(handle) is None
     middle = middles.of(member, number)
-    if not is_seen or middle is None or not _is_invertible(world):
+    if not is_seen or middle is None or not is_invertible(world):
         return None
     pose = live.pose_of(obj, handle)
     center = np.reshape(pose, (4, 4)) @ np.append(middle, 1.0)
@@ -109,10 +109,3 @@ def _member_of(session, obj):
     """Return the data that Live has read from an object, None if it is not live itself."""
     mesh = session.mesh_of(obj) if session is not None else None
     return mesh.member if mesh is not None and mesh.object_uid == obj.session_uid else None
-
-
-def _is_invertible(world):
-    if not np.isfinite(world).all():
-        return False
-    sizes = np.linalg.svd(world[:3, :3], compute_uv=False)
-    return sizes[-1] > SMALLEST_SCALE * sizes[0]

@@ -17,6 +17,8 @@ from ....solver.errors import CubicCraftError
 from .arrays import corner_vertices, read_position
 from .checks import mesh_of
 
+_OWN_COPY = ("EDIT", "SCULPT")
+
 
 def remove_copy(new: bpy.types.Object) -> None:
     """Remove an object that was made here, and its mesh, which nothing else uses."""
@@ -38,9 +40,6 @@ def passing_copy(new: bpy.types.Object, obj: bpy.types.Object) -> Iterator[bpy.t
         raise CubicCraftError(str(error).replace(name, obj.name)) from error
     finally:
         remove_copy(new)
-
-
-_OWN_COPY = ("EDIT", "SCULPT")
 
 
 def flush(obj: bpy.types.Object) -> bool:

@@ -23,6 +23,9 @@ from .affine import fit
 _NAME = "Cubic"
 _BASE = f"{KEY}.base"
 _STROKES = f"{KEY}.strokes"  # that are in the key, see `strokes`
+_SUMS = 4
+_ROUNDING = 2.0**-24  # of float32, relative
+_MARGIN = 16.0  # the sums of many roundings spread like the square root of their number
 
 
 def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
@@ -154,11 +157,6 @@ def remove_keys(mesh: bpy.types.Mesh, keys: list[bpy.types.ShapeKey]) -> None:
         for obj, index in active.items():
             if index and index >= place:
                 obj.active_shape_key_index = index - 1
-
-
-_SUMS = 4
-_ROUNDING = 2.0**-24  # of float32, relative
-_MARGIN = 16.0  # the sums of many roundings spread like the square root of their number
 
 
 def offset_sums(points: np.ndarray, base: np.ndarray) -> list[float]:

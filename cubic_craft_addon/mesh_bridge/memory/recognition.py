@@ -10,6 +10,7 @@ from .affine import IDENTITY, Affine, consensus, fit
 
 _RESULTS = 4095  # so few that mixing equal numbers gives the same number
 _PLACES = 2**24  # as many as float32 represents exactly
+_MOST_RUNS = 256  # more result from cutting faces, not from joining meshes
 
 
 def make_marks(original: np.ndarray, written: np.ndarray) -> np.ndarray:
@@ -53,9 +54,6 @@ def runs(marks: np.ndarray, rows: np.ndarray) -> tuple[list[np.ndarray], np.ndar
 def is_complete(marks: np.ndarray, run: np.ndarray) -> bool:
     """Return whether a run contains all vertices of its result."""
     return np.float32(len(run)) == marks[run[0], 2]
-
-
-_MOST_RUNS = 256  # more result from cutting faces, not from joining meshes
 
 
 @dataclass(frozen=True)

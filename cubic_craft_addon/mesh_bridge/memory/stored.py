@@ -17,6 +17,7 @@ from .recognition import UNCHANGED, Recognized, make_marks, recognize
 
 _ROUNDING = 2.0**-24  # of float32, relative
 _MARGIN = 32.0
+_UNTURNED = (1, 0, 0, 0)
 
 
 @dataclass(frozen=True)
@@ -114,9 +115,6 @@ def _is_flattened(recognized: Recognized, count: int) -> np.ndarray:
     for part in recognized.parts:
         is_flattened[part.rows] = part.map.is_flattened
     return is_flattened
-
-
-_UNTURNED = (1, 0, 0, 0)
 
 
 @dataclass(frozen=True)

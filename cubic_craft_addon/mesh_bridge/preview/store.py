@@ -29,6 +29,7 @@ from ..memory.affine import fit
 from .edit_mode import EditedMesh
 
 POSITION = f"{LIVE}.position"  # only where it is not equal to the base
+_MOST = 64  # shapes kept; Blender keeps 32 undo steps by default
 
 
 def store_live(mesh: bpy.types.Mesh, present: Shapes) -> None:
@@ -143,8 +144,6 @@ def _known_keys(
             known[name] = points
     return known
 
-
-_MOST = 64  # shapes kept; Blender keeps 32 undo steps by default
 
 _shown: dict[str, np.ndarray] = {}
 """the shape shown when a mesh was transformed, by fingerprint, the latest last"""

@@ -11,6 +11,8 @@ from ....solver.mesh.edges import edges_of
 from ..access.arrays import read_values
 from ..access.sharp_edges import has_following_edges
 
+_SAME = 1e-5  # between UVs
+
 
 def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the chart (m,) of each triangle of a mesh, and pairs (c,2) set apart within charts.
@@ -61,6 +63,3 @@ def charts(mesh: bpy.types.Mesh, positions: np.ndarray) -> tuple[np.ndarray, np.
         for pair in itertools.product(within[one], within[other])
     ]
     return np.repeat(chart, count), np.array(cuts, np.int64).reshape(-1, 2)
-
-
-_SAME = 1e-5  # between UVs

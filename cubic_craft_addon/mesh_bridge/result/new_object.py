@@ -18,6 +18,10 @@ from ..memory.original import Start
 from .restore import discard_original
 from .results import write_mesh
 
+KINDS = ("MESH", "CURVE", "SURFACE", "FONT", "META")
+"""types of objects with a visible mesh"""
+_PLAIN_PARENTS = ("OBJECT", "BONE", "VERTEX", "VERTEX_3")
+
 
 def write_new_object(
     obj: bpy.types.Object,
@@ -119,12 +123,6 @@ def _strip(new: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
     new.active_shape_key_index = 0
     new.show_only_shape_key = False
     discard_original(mesh)
-
-
-KINDS = ("MESH", "CURVE", "SURFACE", "FONT", "META")
-"""types of objects with a visible mesh"""
-
-_PLAIN_PARENTS = ("OBJECT", "BONE", "VERTEX", "VERTEX_3")
 
 
 def make_seen(obj: bpy.types.Object) -> bpy.types.Object:

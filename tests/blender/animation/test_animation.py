@@ -299,7 +299,7 @@ def test_frames_that_are_not_those_saved_are_solved_again(recorded, tmp_path):
 
 def test_parts_are_taken_over_where_they_follow_and_are_whole(recorded, tmp_path):
     recorded([0, 1], range(0, 2))
-    recorded([2, 3], range(2, 4))
+    recorded([1, 2, 3], range(1, 4))  # of which one frame is known
     recorded([4, 5], range(4, 6))
     path = tmp_path / "R.part_0000004_0000006" / "frames.f32"
     path.write_bytes(path.read_bytes()[::-1])

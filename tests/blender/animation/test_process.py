@@ -141,3 +141,12 @@ def test_there_is_no_way_between_settings_that_are_solved_on_other_vertices(
     with pytest.raises(RuntimeError, match="no way from settings with other"):
         bpy.ops.cubic_craft.bake_process(folder=str(tmp_path), process_from="Begin")
     assert bpy.context.object == coarse and not coarse.hide_get()
+
+
+@pytest.mark.parametrize(("space", "angle"), [("WORLD", 0.3), ("OBJECT", 0.4)])
+def test_angles_are_between_others_only_where_both_are_relative_to_the_same(part, space, angle):
+    settings = part("settings.values").Settings
+    start = settings(orientation=(0.0, 0.0, 0.2), space="WORLD")
+    end = settings(orientation=(0.0, 0.0, 0.4), space=space)
+    found = part("animation.sources").on_the_way(start, end, 0.5)
+    assert found.orientation == pytest.approx((0.0, 0.0, angle), abs=1e-6)

@@ -87,14 +87,14 @@ def test_a_linked_copy_has_the_same_pose_and_the_same_shape(posed):
 def test_renaming_a_vertex_group(posed):
     obj, left, _ = add_posable()
     pose(obj)
-    obj.cubic_craft.map_group = RIGHT
+    obj.cubic_craft.map_group = obj.cubic_craft.detail_group = RIGHT
     before = position_of(obj.data)
     bpy.context.view_layer.update()
     for old, new in ((LEFT, "Foot"), (RIGHT, "Hand"), ("Foot", "Paw")):
         obj.vertex_groups[old].name = new
         bpy.context.view_layer.update()
     assert [handle.group for handle in obj.cubic_craft.handles] == ["Paw", "Hand"]
-    assert obj.cubic_craft.map_group == "Hand"
+    assert obj.cubic_craft.map_group == obj.cubic_craft.detail_group == "Hand"
     assert solved(obj)[left].tobytes() == before[left].tobytes()
 
 

@@ -81,6 +81,6 @@ def check_gone(live):
     assert not session.tasks and not session._plan.groups and not session._plan.overrides.pointers
     assert not session._runs._runs
     for mesh in session.meshes:
-        assert mesh._preview is None and mesh.member is None and mesh.run is None
+        assert mesh._preview is None and mesh.member is None and not mesh.run.is_started
     for mesh in bpy.data.meshes:
         assert not [a.name for a in mesh.attributes if a.name.startswith("cubic_craft_live")]

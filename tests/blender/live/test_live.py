@@ -55,14 +55,16 @@ def test_a_change_that_had_to_wait_is_not_forgotten(live, begin, one_phase):
 def test_a_change_restarts_within_one_tick(live, begin, one_phase):
     obj = add_triangles()
     session = tick_to_rest(begin(obj))
-    assert session.meshes[0].iterations > 10
+    assert session.meshes[0].run.iterations > 10
     live.live_properties().cubeness = 0.8
     assert session._timer is not None, "the change has not woken it"
     before = bits(obj)
     session.tick(bpy.context)
-    assert session.meshes[0].is_working and session.meshes[0].iterations <= 1
+    assert session.meshes[0].run.is_working and session.meshes[0].run.iterations <= 1
+    assert session._is_too_young(float("inf")), "another change waits until it is seen"
     tick_to_sight(session)
     assert bits(obj) != before
+    assert session._is_too_young(session._last_restart), "and for a moment"
     tick_to_rest(session)
 
 
@@ -100,9 +102,10 @@ def test_idle_does_nothing_until_something_happens(live, begin):
     obj.location.x += 1.0
     bpy.context.view_layer.update()
     assert session._timer is not None
-    before = session.meshes[0].iterations
+    run = session.meshes[0].run
+    before = run.iterations
     session.tick(bpy.context)
-    assert session._timer is None and session.meshes[0].iterations == before, "moved is not turned"
+    assert session._timer is None and run.iterations == before, "moved is not turned"
 
 
 def test_a_large_mesh_is_seen_to_move_on_coarser_ones_first(
@@ -118,8 +121,8 @@ def test_a_large_mesh_is_seen_to_move_on_coarser_ones_first(
     assert mesh.run._run.is_on_coarser_mesh
     while mesh.run._run.iterations < 6:
         session.tick(bpy.context)
-    assert mesh.run._run.is_on_coarser_mesh and mesh.iterations == 0
-    assert bits(obj) != before and mesh.status[0][0] == "First on a coarser mesh"
+    assert mesh.run._run.is_on_coarser_mesh and mesh.run.iterations == 0
+    assert bits(obj) != before and mesh.run.status[0][0] == "First on a coarser mesh"
     confirm(live, session)
     select(twin)
     bpy.ops.cubic_craft.cubify(cubeness=0.6)

@@ -218,6 +218,6 @@ def test_a_soft_shape_begins_again_from_the_original(live, begin, one_phase):
     run = session.meshes[0].run
     live.live_properties().cubeness = 0.5
     session.tick(bpy.context)
-    assert not run._is_restyled and session.meshes[0].iterations <= 1
+    assert not run._is_restyled and session.meshes[0].run.iterations <= 1
     confirm(live, session)
     check_same_as_cubify(obj)

@@ -118,12 +118,12 @@ def test_other_faces_are_followed(live, follow):
 def test_while_it_waits_the_status_says_that_it_follows(follow):
     obj = add_monkey()
     session = tick_to_rest(follow(obj))
-    assert session.meshes[0].status[0][-1] == "Converged"
+    assert session.meshes[0].run.status[0][-1] == "Converged"
     stroke(obj)
     session.tick(bpy.context)
-    assert session.meshes[0].status[0][-1] == "Following"
+    assert session.meshes[0].run.status[0][-1] == "Following"
     tick_to_rest(session)
-    assert session.meshes[0].status[0][-1] == "Converged"
+    assert session.meshes[0].run.status[0][-1] == "Converged"
 
 
 def test_what_live_writes_does_not_wake_it(follow):

@@ -78,12 +78,12 @@ def test_moving_object_and_handles_together_restarts_nothing(live, begin):
     empty = pose(obj)
     session = begin(obj, space="OBJECT")  # which takes the cube along
     tick_to_rest(session)
-    done = session.meshes[0].iterations
+    done = session.meshes[0].run.iterations
     obj.location = (0.3, 5.1, -2.7)
     obj.rotation_euler = (0.4, 1.0, 0.2)
     bpy.context.view_layer.update()
     session.tick(bpy.context)
-    assert session.meshes[0].iterations == done and session._timer is None
+    assert session.meshes[0].run.iterations == done and session._timer is None
     assert empty.parent == obj
 
 
@@ -129,3 +129,14 @@ def test_crispness_is_followed_without_another_run(live, begin, extension, monke
     confirm(live, session)
     assert obj.cubic_craft.crispness == pytest.approx(0.9)
     check_same_as_cubify(obj)
+
+
+def test_after_it_was_cancelled_its_settings_come_back_unless_the_object_has_others(live, begin):
+    obj = add_triangles()
+    session = begin(obj, cubeness=0.2)
+    live.live_properties().cubeness = 0.75
+    session.on(live.Event.CANCEL)
+    for own, expected in ((0.2, 0.75), (0.3, 0.3)):
+        session = begin(obj, cubeness=own)
+        assert live.live_properties().cubeness == pytest.approx(expected)
+        session.on(live.Event.CANCEL)

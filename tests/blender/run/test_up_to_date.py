@@ -74,7 +74,10 @@ def test_several_are_listed_once_each_and_an_update_clears_them(changes):
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("device", "NUMPY"), ("map_invert", True), ("use_handles", False), ("result", "NEW_OBJECT")],
+    [
+        *(("device", "NUMPY"), ("map_invert", True), ("use_handles", False)),
+        *(("result", "NEW_OBJECT"), ("capture_strength", 0.3)),
+    ],
 )
 def test_what_would_not_change_the_shape_does_not_count(changes, name, value):
     obj = add_monkey()

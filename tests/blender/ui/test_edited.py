@@ -145,8 +145,8 @@ def test_the_first_original_comes_back():
     assert not bpy.ops.cubic_craft.restore_first.poll() and not bpy.ops.cubic_craft.restore.poll()
 
 
-def test_the_panel_says_what_from_here_replaces(edited, monkeypatch):
-    monkeypatch.setattr(edited, "room_for_text", lambda *_: 1e6)
+def test_the_panel_says_what_from_here_replaces(edited, part, monkeypatch):
+    monkeypatch.setattr(part("screen.text_fit"), "room_for_text", lambda *_: 1e6)
     obj = add_monkey()
     cubify()
     for shape in ("cubic", "edited", "with strokes"):
@@ -168,9 +168,9 @@ def test_the_panel_says_what_from_here_replaces(edited, monkeypatch):
         update()
 
 
-def test_a_lost_original_is_named(edited, monkeypatch):
+def test_a_lost_original_is_named(edited, part, monkeypatch):
     """New vertices that were moved each its own way: Cubify starts from here, and says so."""
-    monkeypatch.setattr(edited, "room_for_text", lambda *_: 1e6)
+    monkeypatch.setattr(part("screen.text_fit"), "room_for_text", lambda *_: 1e6)
     obj = add_monkey()
     cubify(max_iterations=2)
     with bmesh_of(obj.data) as bm:

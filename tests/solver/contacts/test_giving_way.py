@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from facing import angle_to_axes
 from proxy_shapes import eye_in_head, joined, revolved, torus, uv_sphere
+from shapes import rotation
 
 from solver import (
     ProxyOptions,
@@ -19,7 +20,7 @@ from solver import (
     rest_mesh,
     stylize,
 )
-from solver.contacts.riding import riding
+from solver.contacts.riding import Riding, riding
 from solver.proxy.sheets import cards
 
 COUNT, ROWS = 100, 5
@@ -195,6 +196,16 @@ def test_each_vertex_of_a_card_rides_on_what_is_nearest_to_it():
     ridden = riding(rest, np.arange(len(rest.V)) >= len(V))
     assert ridden.vertices.tolist() == list(range(len(V), len(rest.V)))
     np.testing.assert_allclose(np.linalg.norm(ridden.offsets, axis=1), heights, atol=0.02)
+
+
+def test_what_rides_is_turned_as_what_it_rides_on():
+    V = np.random.default_rng(0).normal(size=(3, 3))
+    share, offset, spun = np.array([[0.2, 0.3, 0.5]]), np.array([[0.1, 0.2, 1.0]]), rotation(40, 70)
+    card = Riding(np.array([3]), np.array([[0, 1, 2]]), share, offset)
+    R = card.turned(np.concatenate([np.tile(spun, (3, 1, 1)), np.eye(3)[None]]))
+    np.testing.assert_allclose(R[3], spun, atol=1e-12)
+    U = card.carried(np.vstack([V @ spun.T, np.zeros(3)]), R)
+    np.testing.assert_allclose(U[3], ((share @ V + offset) @ spun.T)[0], atol=1e-12)
 
 
 def test_a_stick_that_goes_through_a_ball_becomes_square():

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Surfaces that do not cross at rest do not cross in the result."""
 
+from types import SimpleNamespace
+
 import contact_shapes
 import numpy as np
 import pytest
 import shapes
 from proxy_shapes import joined
+from scipy.sparse import identity
 
 from solver import (
     PAPER,
@@ -25,6 +28,7 @@ from solver import (
 from solver.contacts import keep_apart, pairs
 from solver.contacts.crossings import crossings
 from solver.proxy import no_links
+from solver.proxy.links import links_between
 
 BARE = {"keep_pose": False, "detail": 0.0}
 """what lets limbs swing"""
@@ -236,6 +240,26 @@ def test_mirrored_halves_stay_mirror_images():
     assert result.crossings == 0
     U = result.positions
     np.testing.assert_allclose(mirror.image(U)[mirror.partner], U, atol=1e-9)
+
+
+@pytest.mark.parametrize(("is_wide", "expected"), [(False, [0]), (True, [0, 2])])
+def test_once_more_the_gaps_are_linked_that_are_narrower_than_any_was_closed_by(is_wide, expected):
+    ends = np.array([0, 2, 4]), np.array([1, 3, 5])
+    V, R = np.zeros((6, 3)), np.tile(np.eye(3), (6, 1, 1))
+    V[ends[1], 0] = 1.0, 0.5, 2.0
+    U = np.where(np.arange(6)[:, None] == 1, 0.1 * V, V)  # only the first gap is closed
+    rest = SimpleNamespace(V=V, topology=SimpleNamespace(part=np.zeros(6, int)))
+    gaps = SimpleNamespace(graph=identity(6, format="csr"), partners=lambda chosen: ends)
+    linked, _ = pairs._closed_gaps(rest, gaps, np.ones(6, bool), U, R, is_wide)
+    assert linked.tolist() == expected
+
+
+def test_only_links_whose_ends_both_have_images_are_mirrored():
+    mirror = Mirror(np.array([1, 0, 3, 2, -1]), np.diag([-1.0, 1.0, 1.0]), np.zeros(3))
+    links = links_between(np.array([0, 0]), np.array([2, 4]), np.ones(2))
+    found = pairs.mirrored(links, [mirror])
+    ends = [set(row[c != 0.0]) for row, c in zip(found.vertices, found.coefficients, strict=True)]
+    assert ends == [{0, 2}, {0, 4}, {1, 3}]
 
 
 def test_held_groups_keep_their_place():

@@ -29,6 +29,7 @@ from solver import (
     triangle_areas_and_normals,
 )
 from solver.hardening.hard_stylization import HardStylization
+from solver.hardening.hardening import DRAWN, OF_SHEETS, hold_of
 from solver.hardening.sides import NO_SIDE
 from solver.styles.forms import prism
 
@@ -179,6 +180,17 @@ def test_without_cubeness_the_shape_stays():
     np.testing.assert_allclose(U, V, atol=1e-9)
 
 
+def test_what_is_hardly_drawn_to_its_form_is_less_crisp():
+    states = (soft_blob(Style(value, crispness=1.0), steps=1) for value in (DRAWN / 4, 2 * DRAWN))
+    found = [HardStylization(state).hardening.crispness.max() for state in states]
+    assert found == pytest.approx([0.25, 1.0])
+
+
+def test_open_sheets_are_held_by_their_size():
+    rest = rest_mesh(*shapes.sheet(), ProxyOptions(refine=False))
+    np.testing.assert_allclose(hold_of(rest), rest.areas / OF_SHEETS**2)
+
+
 def test_what_is_held_stays_and_what_is_moved_goes_there():
     V, F = shapes.blob(3)
     pinned = np.flatnonzero(V[:, 2] < V[:, 2].min() + 0.5)
@@ -270,6 +282,15 @@ def test_details_are_as_high_as_they_are_asked_to_be(crispness):
         shown.append(tops - rings)
     assert shown[2] - shown[1] == pytest.approx(shown[1] - shown[0], rel=0.35)
     assert 0.006 < shown[1] - shown[0] < 0.04
+
+
+def test_details_that_were_added_turn_with_the_shape():
+    found = HardStylization(soft_blob(Style(0.6, crispness=1.0), steps=3)).hardening
+    added = np.random.default_rng(0).normal(size=found.soft.shape)
+    raised = found.solved + np.einsum("nij,nj->ni", found.rotations, added)
+    spun = np.broadcast_to(shapes.rotation(x=40, y=-25), found.rotations.shape)
+    later = replace(found, soft=raised).followed(found.solved + 1.0, spun)
+    np.testing.assert_allclose(later.soft, found.solved + 1.0 + added @ spun[0].T, atol=1e-9)
 
 
 def test_the_strength_of_details_can_be_painted():

@@ -27,8 +27,11 @@ from solver import (
     run,
     stylize,
 )
-from solver.limbs import KnownLimbs, Limbs, turns, without_shells
+from solver.limbs import KnownLimbs, Limbs, no_limbs, turns, with_hollows, without_shells
 from solver.limbs.swing import swung
+from solver.proxy.cavities import OF_STRENGTH
+from solver.proxy.links import links_between
+from solver.proxy.thickness import STRENGTH
 from solver.styles import forms
 from solver.styles.forms import cube, prism
 
@@ -142,6 +145,18 @@ def test_sleeves_with_nothing_in_them_keep_their_direction():
     for side in (-x, x):
         is_sleeve = side > 0.8
         assert angle_between(along_z(U[is_sleeve]), along_z(V[is_sleeve])) < 5.0
+
+
+@pytest.mark.parametrize("has_two_sides", [True, False])
+def test_how_much_of_a_part_faces_itself_counts_beside_one_of_its_sides(has_two_sides):
+    V, areas, limbs = np.random.default_rng(0).random((10, 3)), np.full(10, 0.1), no_limbs(10)
+    weight = 0.2 * OF_STRENGTH * STRENGTH / ((V[1] - V[0]) ** 2).sum()  # a fifth of the area
+    walls, cavities = (
+        links_between(*np.array([[i], [i + 1]]), weight * np.ones(1)) for i in (2, 0)
+    )
+    walls = walls.part(np.arange(1 if has_two_sides else 0))
+    found = with_hollows(limbs, V, None, walls, cavities, np.zeros(10, int), 0.0 * V, areas)
+    assert (found is not limbs) == has_two_sides
 
 
 def test_the_outer_side_of_a_sleeve_lies_as_the_inner_one():

@@ -178,6 +178,13 @@ def test_a_frame_goes_along_with_a_bone_in_any_pose():
     )
 
 
+def test_pieces_turn_as_their_vertices_do():
+    V, *bones = rig(*chain([0 * X, 3.0 * TILTED, 3.0 * TILTED + 2.0 * Y], [0.4, 0.3]))
+    limbs, spun = limbs_of_bones(V, *bones), shapes.rotation(x=50, z=-70)
+    posed = limbs.posed(V, V @ spun.T + [3.0, -1.0, 2.0])
+    np.testing.assert_allclose(posed.present, limbs.present @ spun.T, atol=1e-9)
+
+
 def test_a_body_of_which_bones_say_that_it_has_no_limbs_has_none():
     V, F = limb_shapes.bar(shapes.rotation(y=30))
     rest = rest_mesh(V, F, ProxyOptions())
