@@ -209,6 +209,8 @@ class KeepApart:
         if self._rounds or best.is_pushed:
             stylization.go_to(best.R, best.U)
         self._at_end, self._crossing = np.unique(best.pairs), best.pairs
+        # no more rounds: what they are found from takes as much memory as the run itself
+        self._now = self._best = self._before = self._first = self._gaps = None
         return stylization
 
     def conclude(self, stylization):
