@@ -88,7 +88,7 @@ class Watched:
 
     `F`: (m,3) int. `low`, `high`: (m,3), corners of the boxes, in the unit box. `is_moved`: (m,)
     bool, triangles that move; pairs of two others are not watched. `counts`: callable, optional,
-    maps pairs of triangles (k,2) to a mask (k,) of those that are to be watched.
+    maps pairs of triangles (k,2) to a mask (k,) of those that count if they cross.
     """
 
     def __init__(self, F, low, high, is_moved, counts=None):
@@ -100,8 +100,7 @@ class Watched:
         found = [_apart(corners, *block) for block in blocks_of_overlaps(low[used], high[used])]
         pairs = used[np.concatenate([np.empty((2, 0), np.intp), *map(np.stack, found)], axis=1)]
         pairs = pairs[:, is_moved[pairs].any(axis=0)]
-        if counts is not None:
-            pairs = pairs[:, counts(pairs.T)]
+        self._counts = counts
         self._used, place = np.unique(pairs, return_inverse=True)
         self._F, self._pairs = F[self._used], place.reshape(2, -1)
         self._V, self._is_crossing = None, np.zeros(self._pairs.shape[1], dtype=bool)
@@ -122,7 +121,8 @@ class Watched:
             asked = asked[:, rows]
             self._is_crossing[rows[_Planes(V, self._F).crossing(*asked)]] = True
         self._V = V
-        return self._used[self._pairs[:, self._is_crossing]].T
+        pairs = self._used[self._pairs[:, self._is_crossing]].T
+        return pairs if self._counts is None else pairs[self._counts(pairs)]
 
 
 def boxes(V, F):

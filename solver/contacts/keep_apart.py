@@ -211,6 +211,8 @@ class KeepApart:
         if self._rounds or best.is_pushed:
             stylization.go_to(best.R, best.U)
         self._at_end, self._crossing = np.unique(best.pairs), best.pairs
+        # no more rounds: what they are found from takes as much memory as the run itself
+        self._now = self._best = self._before = self._first = self._gaps = None
         return stylization
 
     def conclude(self, stylization):
@@ -266,8 +268,9 @@ class KeepApart:
     def _pushed(self, U, pairs, stylization):
         is_free = np.ones(len(U), dtype=bool)
         is_free[stylization.setup.pinned] = False
-        V, impose = self._rest.V, stylization.impose
-        return pushed(V, U, self._shown, pairs, self._firm_counts, is_free, impose)
+        V, F, firm = self._rest.V, self._shown[self._firm], self._firm
+        pairs = np.searchsorted(firm, pairs)
+        return pushed(V, U, F, pairs, lambda x: self._counts(firm[x]), is_free, stylization.impose)
 
     def _pairs_after(self, pairs, before, U):
         """Return the pairs that cross after some vertices have been moved, of those before."""
@@ -323,12 +326,6 @@ class KeepApart:
             V, part = self._rest.V, self._rest.topology.part
             counts &= ~is_ground(extents(V, part)[part], is_sheet, *corners.T)
         return counts
-
-    def _firm_counts(self, pairs):
-        """Return the same, for none with a card."""
-        is_firm = ~self._is_card[pairs].any(axis=1)
-        is_firm[is_firm] = self._counts(pairs[is_firm])
-        return is_firm
 
     def _are_touching(self, pairs):
         """Return which pairs (k,2) are of a card and what it stands on at rest.

@@ -83,7 +83,8 @@ def _is_blocked(places, points, F, pairs, least):
     are looked at from the top down, each time twice as many: below a pile of others, the first ones
     are enough.
     """
-    a, b, c = (places.take(corner, axis=1) for corner in F)
+    near = _around(places, points, F)
+    a, b, c = (places.take(corner.take(near), axis=1) for corner in F)
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
     triangle, at, end = _in_cells(low, high, points)
     is_blocked = np.zeros(len(at), dtype=bool)
@@ -92,7 +93,7 @@ def _is_blocked(places, points, F, pairs, least):
         count = np.minimum(size, end[todo] - at[todo])
         point, start = np.repeat(todo, count), at[todo] - np.cumsum(count) + count
         place = triangle[np.repeat(start, count) + np.arange(len(point))]
-        is_near = (pairs.take(point, axis=0) != place[:, None]).all(axis=1)
+        is_near = (pairs.take(point, axis=0) != near.take(place)[:, None]).all(axis=1)
         is_near &= high[2].take(place) > points[2].take(point)
         for below, above, here in zip(low[:2], high[:2], points, strict=False):
             here = here.take(point)
@@ -106,6 +107,26 @@ def _is_blocked(places, points, F, pairs, least):
         is_left &= high[2].take(triangle[at[todo] - 1]) >= points[2, todo]
         todo, size = todo[is_left], min(2 * size, max(_MOST_AT_ONCE // len(at), 1))
     return is_blocked
+
+
+def _around(places, points, F):
+    """Return the triangles (t,) above whose boxes some of the points may lie, by cells of a grid.
+
+    Where few are asked for, they are few, and nothing else is looked up for the others.
+    """
+    side, origin = _MOST_CELLS, places[:2].min(axis=1, keepdims=True)
+    scale = side / max(float((places[:2] - origin).max()), 1e-300)
+    cell, of_points = (
+        ((x[:2] - origin) * scale).astype(np.int16).clip(0, side - 1) for x in (places, points)
+    )
+    count = np.zeros((side + 1, side + 1), dtype=np.int32)
+    count[tuple(of_points + 1)] = 1
+    count = count.cumsum(axis=0).cumsum(axis=1)
+    a, b, c = (cell.take(corner, axis=1) for corner in F)
+    left, low = np.minimum(np.minimum(a, b), c)
+    right, high = np.maximum(np.maximum(a, b), c) + 1
+    inside = count[right, high] - count[left, high] + count[left, low] - count[right, low]
+    return np.flatnonzero(inside)
 
 
 def _in_cells(low, high, points):
@@ -126,14 +147,11 @@ def _in_cells(low, high, points):
         if side == 1 or (last - first + 1).prod(axis=0).sum() <= _PER_TRIANGLE * len(near):
             break
         side //= 2
-    number, is_asked = column * side + row, np.zeros(side * side, dtype=bool)
-    is_asked[number] = True
+    number = column * side + row
     box, (column, row) = entries(first, last)
-    cell = column * side + row
-    kept = np.flatnonzero(is_asked[cell])
-    cell = cell[kept].astype(np.uint16)  # which are sorted in linear time
+    cell = (column * side + row).astype(np.uint16)  # which are sorted in linear time
     count = np.bincount(cell, minlength=side * side)
-    triangle = near[box[kept[np.argsort(cell, kind="stable")]]]
+    triangle = near[box[np.argsort(cell, kind="stable")]]
     end = np.cumsum(count)
     return triangle, (end - count)[number], end[number]
 

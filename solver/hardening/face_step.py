@@ -110,20 +110,15 @@ class FaceStep:
         ``_angles`` (2m,3n) takes positions to x and y, and its transpose a cosine and a sine to
         pulls at the vertices. What the fixed part of R_f pulls with is ``_steady`` (n,3).
         """
-        rest, F, c = self._rest, self._rest.F, self._target.base.normals
+        rest, F = self._rest, self._rest.F
         m, n = len(F), len(rest.V)
         pulls = (3.0 * (1.0 - self._flatness))[:, None, None] * self._corners.pulls(edges)
-        t = self._target.directions[:, :, None]
-        along = t * c[:, None, :]
-        across = smallest_turns(c, self._target.directions) - along
-        self._parts = along, across, np.cross(t, across, axisa=1, axisb=1, axisc=1)
-        for part in self._parts:
-            part[self._free] = 0.0  # these are fitted one by one
+        along, *turning = self._parts()
         self._turn, self._of_vertices = np.repeat([[1.0], [0.0]], m, axis=1), None
         self._free_R = np.repeat(np.eye(3)[None], len(self._free), axis=0)
         self._steady = self._corners.sums(pulls @ along.swapaxes(1, 2))
         entries = np.empty((2, m, 3, 3))
-        for into, part in zip(entries, self._parts[1:], strict=True):
+        for into, part in zip(entries, turning, strict=True):
             np.matmul(pulls, part.swapaxes(1, 2), out=into)
         columns = np.empty((2, m, 3, 3), np.int32)
         columns[:] = 3 * F[:, :, None] + np.arange(3, dtype=np.int32)
@@ -135,17 +130,32 @@ class FaceStep:
         self._free_pulls = sp.csr_matrix((free, at), shape=(3 * len(self._free), n))
         self._add_links()
 
+    def _parts(self, faces=slice(None)):
+        """Return the three (k,3,3) that the R_f of some triangles are sums of.
+
+        As it is; times the cosine; times the sine. They are found anew, as they are rarely used and
+        take more memory than anything else.
+        """
+        target = self._target
+        t, c = target.directions[faces], target.base.normals[faces]
+        along = t[:, :, None] * c[:, None, :]
+        across = smallest_turns(c, t) - along
+        parts = along, across, np.cross(t[:, :, None], across, axisa=1, axisb=1, axisc=1)
+        for part in parts:
+            part[target.is_free[faces]] = 0.0  # these are fitted one by one
+        return parts
+
     def _add_links(self):
         links = self._target.base.links
         self._is_free = self._target.is_free[links.faces]
         self._of_free = np.searchsorted(self._free, links.faces[self._is_free])
-        along, *self._linked_parts = (part[links.faces] for part in self._parts)
+        along, *self._linked_parts = self._parts(links.faces)
         self._steady += links.pulls(along)
 
     @property
     def of_faces(self):
         """(m,3,3) rotations R_f of the triangles."""
-        along, across, turned = self._parts
+        along, across, turned = self._parts()
         cosine, sine = self._turn[:, :, None, None]
         R = along + cosine * across + sine * turned
         R[self._free] = self._free_R

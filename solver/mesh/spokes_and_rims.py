@@ -42,8 +42,13 @@ class SpokesAndRims(Value):
     """(nnz,) L[i,j]"""
     gather: FloatArray
     """(nnz,3) H_c[i,j] for the local step"""
-    scatter: FloatArray
-    """(nnz,3) H_c[j,i] for the global step"""
+
+    @property
+    def scatter(self):
+        """(nnz,3) H_c[j,i] for the global step."""
+        # the entries in the order of their columns, and in each of their rows
+        numbers = self.matrix(np.arange(len(self.indices))).tocsc().data
+        return self.gather.take(np.asarray(numbers, dtype=np.intp), axis=0)
 
     def matrix(self, values):
         """Return the values (nnz,) of the pattern as csr_matrix (n,n)."""
@@ -81,12 +86,8 @@ class SpokesAndRims(Value):
 
         indices = (merged % n).astype(np.int32)
         indptr = np.searchsorted(merged, np.arange(n + 1, dtype=np.int64) * n).astype(np.int32)
-        gather = added(self.gather, gather)
-        # the entries in the order of their columns, and in each of their rows
-        numbers = sp.csr_matrix((np.arange(len(merged)), indices, indptr), shape=(n, n))
-        transposed = np.asarray(numbers.tocsc().data, dtype=np.intp)
-        scatter = gather.take(transposed, axis=0)
-        return SpokesAndRims(indptr, indices, added(self.laplacian, laplacian), gather, scatter)
+        laplacian, gather = added(self.laplacian, laplacian), added(self.gather, gather)
+        return SpokesAndRims(indptr, indices, laplacian, gather)
 
     def covariances(self, U, rows=slice(None)):
         """Return S_i of the positions U (n,3), for some vertices (k,): (k,3,3)."""
@@ -126,9 +127,7 @@ def spokes_and_rims(V, F, C, edges=None):
             g_upper[:, block] = np.where(is_backward, g_start, g_end)  # pyright: ignore[reportIndexIssue]
         below[:, c], above[:, c] = pattern.sum_at_edges(g_lower), pattern.sum_at_edges(g_upper)
     del g_lower, g_upper
-    gather = pattern.filled(above, below)
-    scatter = pattern.filled(below, above, gather[pattern.diagonal])
-    return SpokesAndRims(pattern.indptr, pattern.indices, laplacian, gather, scatter)
+    return SpokesAndRims(pattern.indptr, pattern.indices, laplacian, pattern.filled(above, below))
 
 
 class Pattern:
@@ -173,14 +172,12 @@ class Pattern:
         sums = np.bincount(self._edge, values.ravel(), len(self._lower))
         return sums[: len(self._lower)]
 
-    def filled(self, above, below, diagonal=None):
+    def filled(self, above, below):
         """Return values (nnz,...) from those above and below the diagonal, (e,...) at each edge.
 
-        Without a diagonal the rows sum to zero.
+        The rows sum to zero.
         """
-        if diagonal is None:
-            diagonal = -self._row_sums(above, below)
-        return self._placed(above, below, diagonal)
+        return self._placed(above, below, -self._row_sums(above, below))
 
     def _placed(self, above, below, diagonal):
         # taken in the order of memory: several times as fast as putting them there
