@@ -14,6 +14,9 @@ from scipy.spatial import KDTree
 NEAR = 0.01, 0.016
 """distance from the plane, the root of its mean square, relative to the root of the area: a side
 that is nearer than the first goes to its plane, and one beyond the second does not"""
+UPRIGHT = 0.01, 0.02
+"""slope to the direction of the side: a plane with less than the first has none, and one with more
+than the second keeps it"""
 FEWEST = 4
 """triangles of a side; fewer are frayed"""
 _FIRM = 1e3  # weight of the planes of a place beside that of staying there
@@ -92,6 +95,8 @@ def _planes(P, areas, region, facing, area):
     xx, yy = xx + least, yy + least
     a, b = np.stack([yy * xz - xy * yz, xx * yz - xy * xz]) / (xx * yy - xy * xy)
     left = z - a[region] * x - b[region] * y
+    keeping = 1.0 - falling(np.hypot(a, b), UPRIGHT)
+    a, b = a * keeping, b * keeping
     shares = falling(np.sqrt(mean(left * left) / np.maximum(area, _LEAST)), NEAR)
     normals = facing - a[:, None] * axes[0] - b[:, None] * axes[1]
     normals /= np.maximum(np.linalg.norm(normals, axis=1), _LEAST)[:, None]

@@ -16,8 +16,8 @@ from scipy.spatial.transform import Rotation
 
 SAME_PLACE = 1e-6
 """of the size, within which vertices are at one place"""
-SEEN = 1e-4
-"""of the size: triangles that cross by less, as of quads that are nearly flat, look whole"""
+SEEN = 5e-4
+"""of the size: triangles that cross by less, as slivers where two planes meet, look whole"""
 REACH = 0.01
 """of the size, within which vertices of different parts are neighbours"""
 RAYS = ((0.31, 0.22, 0.925), (-0.57, 0.74, 0.36), (0.13, -0.83, -0.54))

@@ -151,7 +151,7 @@ def test_half_a_figure_under_a_mirror_modifier_has_limbs_on_both_sides(figure, b
     half.modifiers.move(half.modifiers.find(mirror.name), 0)
     cubify()
     far = np.linalg.norm(position_of(half.data) - whole[kept], axis=1) / SIZE
-    assert far.max() < 0.017
+    assert far.max() < 0.018
 
 
 def test_bones_and_weights_that_change_restart_live(figure, live, begin):
