@@ -124,7 +124,7 @@ def stylize(
     ...     faces_an_axis = np.abs(normals).max(axis=1) > 0.98  # within 11 degrees
     ...     print(f"{areas[faces_an_axis].sum() / areas.sum():.2f} of the area")
     0.06 of the area
-    0.99 of the area
+    1.00 of the area
 
     A form with a name, and the method of the paper:
 
@@ -196,7 +196,7 @@ def run(
     ...     print(f"{np.linalg.norm(result.positions - V, axis=1).max():.2f}")
     0.00
     0.17
-    0.26
+    0.29
     """
     steps = Run(stylization, max_iterations, tolerance)
     if switch(progress, "progress"):
