@@ -69,7 +69,7 @@ class Run:
     >>> while run.reason is None:
     ...     run.advance()
     >>> round(float(np.linalg.norm(run.positions() - V, axis=1).max()), 2)
-    0.29
+    0.26
     """
 
     def __init__(
