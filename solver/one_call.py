@@ -196,7 +196,7 @@ def run(
     ...     print(f"{np.linalg.norm(result.positions - V, axis=1).max():.2f}")
     0.00
     0.17
-    0.29
+    0.26
     """
     steps = Run(stylization, max_iterations, tolerance)
     if switch(progress, "progress"):
