@@ -124,7 +124,7 @@ def stylize(
     ...     faces_an_axis = np.abs(normals).max(axis=1) > 0.98  # within 11 degrees
     ...     print(f"{areas[faces_an_axis].sum() / areas.sum():.2f} of the area")
     0.06 of the area
-    0.99 of the area
+    1.00 of the area
 
     A form with a name, and the method of the paper:
 

@@ -26,7 +26,7 @@ class Result(Value):
     >>> result.reason, result.device, result.positions.shape, result.rotations.shape
     ('converged', 'numpy', (700, 3), (700, 3, 3))
     >>> round(float(np.linalg.norm(result.positions - V, axis=1).max()), 2)  # the largest movement
-    0.26
+    0.29
     """
 
     positions: FloatArray

@@ -107,8 +107,8 @@ def piece_of(
     ...     result = run(problem.stylization(options))
     ...     ((positions, _),) = problem.split(result.positions, result.rotations)
     ...     print(f"from {positions[:, 2].min():.2f} to {positions[:, 2].max():.2f}")
-    from -0.64 to 1.28
-    from -1.50 to 0.06
+    from -0.63 to 1.34
+    from -1.50 to 0.05
     """
     original, triangles = check_mesh(V, F)
     check_winding(triangles, len(original))
