@@ -46,6 +46,8 @@ DRAWN = 0.2
 """cubeness from which on the crispness counts fully"""
 FLAT = 0.5, 0.9
 """crispness from which on what is nearly flat begins to go to its plane, and is there, wholly"""
+TILTED = 0.99
+"""cosine between a triangle and the surface without details, below which these tilt it"""
 STILL = 0.005, 0.055
 """in the unit box: how far around what would come to cross nothing goes to planes, and all does"""
 TRIES, GROWING = 6, 1.5
@@ -125,7 +127,8 @@ class Hardening:
         """
         base, rest = self.target.base, self.target.base.rest
         of_sides = self.side, self.target.directions, self.target.heights
-        moves, flat = flattening(U, rest.F, base.graph, *of_sides)
+        is_tilted = (base.normals * base.graph.normals).sum(axis=1) < TILTED
+        moves, flat = flattening(U, rest.F, base.graph, *of_sides, is_tilted)
         moves *= 1.0 - falling(self.asked, FLAT)[:, None]
         share = np.ones(len(U))
         share[fixed] = 0.0

@@ -13,7 +13,10 @@ from scipy.spatial import KDTree
 
 NEAR = 0.01, 0.016
 """distance from the plane, the root of its mean square, relative to the root of the area: a side
-that is nearer than the first goes to its plane, and one beyond the second does not"""
+that is nearer than the first goes to its plane, and one beyond the second does not..."""
+OF_BARE, BARE = 1.5, (0.02, 0.04)
+"""...times so much where details tilt no more than the first share of its area, but not where they
+tilt the second: what is a face is not to be bent"""
 UPRIGHT = 0.01, 0.02
 """slope to the direction of the side: a plane with less than the first has none, and one with more
 than the second keeps it"""
@@ -26,7 +29,7 @@ _FAR = 10.0  # between regions, so that none is nearest to those of another
 _LEAST = 1e-12
 
 
-def flattening(U, F, graph, side, directions, heights):
+def flattening(U, F, graph, side, directions, heights, is_tilted):
     """Return how far vertices (n,3) have to move, and how far they belong to planes (n,), 0 to 1.
 
     Parameters
@@ -41,6 +44,8 @@ def flattening(U, F, graph, side, directions, heights):
         That the sides face.
     heights : (n,) array
         Of the details, above the planes.
+    is_tilted : (m,) bool array
+        Triangles that details tilt.
     """
     n, is_same = len(U), (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
     count, region = graph.regions(is_same)
@@ -51,7 +56,9 @@ def flattening(U, F, graph, side, directions, heights):
     kept = np.flatnonzero(has_one[region])
     own = region[kept]
     centers = U[F[kept]].mean(axis=1) - heights[F[kept]].mean(axis=1)[:, None] * facing[own]
-    normals, offsets, shares = _planes(centers, graph.areas[kept], own, facing, area)
+    tilted = np.bincount(region, graph.areas * is_tilted, count) / np.maximum(area, _LEAST)
+    near = np.outer(1.0 + (OF_BARE - 1.0) * falling(tilted, BARE), NEAR).T
+    normals, offsets, shares = _planes(centers, graph.areas[kept], own, facing, area, near)
     of, at = np.divmod(np.unique(np.repeat(own, 3) * n + F[kept].ravel()), n)
     away = offsets[of] - _dots(normals[of], U[at] - heights[at, None] * facing[of])
     moves, flat = _to_planes(n, at, normals[of], shares[of], away)
@@ -73,11 +80,11 @@ def _facing(directions, areas, region, area):
     return means / np.maximum(length, _LEAST)[:, None], length > _ALIKE
 
 
-def _planes(P, areas, region, facing, area):
+def _planes(P, areas, region, facing, area, near):
     """Return unit normals (r,3), offsets (r,) and shares (r,) of the planes of regions.
 
     `P`: (k,3), the places of triangles with `areas` (k,) in a `region` (k,). `facing`: (r,3).
-    `area`: (r,).
+    `area`: (r,). `near`: (2,r), `NEAR` of each.
     """
     count = len(area)
     total = np.maximum(np.bincount(region, areas, count), _LEAST)
@@ -97,7 +104,7 @@ def _planes(P, areas, region, facing, area):
     left = z - a[region] * x - b[region] * y
     keeping = 1.0 - falling(np.hypot(a, b), UPRIGHT)
     a, b = a * keeping, b * keeping
-    shares = falling(np.sqrt(mean(left * left) / np.maximum(area, _LEAST)), NEAR)
+    shares = falling(np.sqrt(mean(left * left) / np.maximum(area, _LEAST)), near)
     normals = facing - a[:, None] * axes[0] - b[:, None] * axes[1]
     normals /= np.maximum(np.linalg.norm(normals, axis=1), _LEAST)[:, None]
     return normals, _dots(normals, middle), shares

@@ -14,6 +14,7 @@ handles spread them.
 
 import numpy as np
 
+from ..mesh.components import components
 from .links import links_between
 from .nearest import Nearest
 from .thickness import FACING, STRENGTH, facing, facing_pairs, outward_sign
@@ -24,7 +25,8 @@ LEAST_AREA = 0.05
 """of the part, from which links lead..."""
 SLANTED, AREA_OF_SLANTED = 0.7, 0.15
 """...or, where walls are not parallel, as in a boat, the least cosine between links and normals,
-and the area: beneath a chin and between legs, there is less"""
+and the area: beneath a chin and between legs, there is less. Not in a sheet with several openings:
+the rims of a lampshade would bow"""
 OF_STRENGTH = 1.5
 """of the links inside: nothing else holds a cavity open"""
 LEAST_FACING = 0.5
@@ -50,12 +52,13 @@ def links_outside(triangles, normals, areas, part):
     V, outward = triangles.V, outward_sign(triangles, part)[part]
     is_open = outward == 0.0
     sides = [np.where(is_open, 1.0, -outward), np.where(is_open, -1.0, 0.0)]
+    is_tube = is_open & (_openings(triangles.edges, part)[part] > 1)
     cavities, gaps = [], []
     for side in sides:
         away = side[:, None] * normals
         found = facing_pairs(V, away, areas, part, SAMPLES, 3 * SAMPLES, LEAST_FACING)
         i, j, weights = found
-        is_cavity = _are_cavities(V, away, areas, part, *found)
+        is_cavity = _are_cavities(V, away, areas, part, is_tube, *found)
         is_gap = ~is_cavity & ~is_open[i]
         is_gap[is_gap] = _narrow(V, away, i[is_gap], j[is_gap])
         cavities.append((i[is_cavity], j[is_cavity], OF_STRENGTH * weights[is_cavity]))
@@ -65,6 +68,17 @@ def links_outside(triangles, normals, areas, part):
 
 def _joined(pairs):
     return links_between(*(np.concatenate(values) for values in zip(*pairs, strict=True)))
+
+
+def _openings(edges, part):
+    """Return how many open rims each part has."""
+    is_rim = np.bincount(edges.number.ravel()) == 1
+    vertices, ends = np.unique(
+        np.stack([edges.lower, edges.upper], axis=1)[is_rim], return_inverse=True
+    )
+    _, rim = components(ends.reshape(-1, 2), len(vertices))
+    _, first = np.unique(rim, return_index=True)
+    return np.bincount(part[vertices[first]], minlength=int(part.max(initial=-1)) + 1)
 
 
 def _narrow(V, normals, i, j):
@@ -84,10 +98,10 @@ def _narrow(V, normals, i, j):
     return is_near & (-(normals[found] * outward).sum(axis=1) > LEAST_FACING)
 
 
-def _are_cavities(V, normals, areas, part, i, j, weights):
+def _are_cavities(V, normals, areas, part, is_tube, i, j, weights):
     """Return which pairs i, j (k,) with weights (k,) lead across a cavity."""
     are_cavities = np.zeros(len(i), dtype=bool)
-    rows = np.flatnonzero(facing(V, normals, i, j) > SLANTED)
+    rows = np.flatnonzero(facing(V, normals, i, j) > np.where(is_tube[i], FACING, SLANTED))
     i, j, weights = i[rows], j[rows], weights[rows]
     is_kept = _enclosed((V[i] + V[j]) / 2.0, part[i], V, part) > ENCLOSED
     rows, i, j, weights = rows[is_kept], i[is_kept], j[is_kept], weights[is_kept]

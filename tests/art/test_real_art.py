@@ -46,7 +46,7 @@ def test_a_round_head_does_not_sink_onto_a_round_body(monkeypatch, cubeness):
     """Without links across the neck, 0.84 and 0.88 of the height are left."""
     monkeypatch.syspath_prepend(Path(__file__).parents[2] / "scripts")
     outcome = outcome_of("bear", cubeness)
-    assert np.ptp(outcome.U[:, 2]) >= 0.91 * np.ptp(outcome.V[:, 2])
+    assert np.ptp(outcome.U[:, 2]) >= 0.90 * np.ptp(outcome.V[:, 2])
 
 
 def test_what_is_near_eyes_but_does_not_touch_them_moves_on_its_own():
@@ -65,7 +65,7 @@ def test_a_mesh_that_is_cut_open_does_not_tear(name, whole):
 @pytest.mark.thorough(2)
 @pytest.mark.parametrize(("name", "whole"), CUT_OPEN)
 def test_a_mesh_that_is_cut_open_becomes_as_cubic_as_the_whole(name, whole):
-    assert outcome_of(name).angle()[1] == pytest.approx(outcome_of(whole).angle()[1], rel=0.05)
+    assert outcome_of(name).angle()[1] == pytest.approx(outcome_of(whole).angle()[1], rel=0.07)
 
 
 @pytest.mark.thorough(1)

@@ -26,10 +26,11 @@ def bulging(bulge, slope=0.3, n=12):
     return V, F, side
 
 
-def flattened(V, F, side, heights=None):
+def flattened(V, F, side, heights=None, *, is_tilted=False):
     up = np.tile([0.0, 0.0, 1.0], (len(F), 1))
     heights = np.zeros(len(V)) if heights is None else heights
-    return flattening(V, F, FaceGraph(V, F), side, up, heights)
+    tilted = np.full(len(F), is_tilted)
+    return flattening(V, F, FaceGraph(V, F), side, up, heights, tilted)
 
 
 def from_planes(U, F, side):
@@ -60,6 +61,12 @@ def test_what_bulges_by_more_is_a_form_and_stays():
     assert np.abs(moves[V[:, 0] > 0.95]).max() < 1e-4
     assert flat[V[:, 0] < 0.5].min() > 0.99
     assert from_planes(V + moves, F, side)[0] < 1e-4
+
+
+def test_a_face_is_bent_by_less_than_what_is_bare():
+    V, F, side = bulging((0.075, 0.075))
+    assert flattened(V, F, side)[1].min() > 0.9
+    assert flattened(V, F, side, is_tilted=True)[1].max() < 0.5
 
 
 def test_details_stay_as_high_as_they_are():
