@@ -49,7 +49,7 @@ FLAT = 0.5, 0.9
 TILTED = 0.99
 """cosine between a triangle and the surface without details, below which these tilt it"""
 STILL = 0.005, 0.055
-"""in the unit box: how far around what would come to cross nothing goes to planes, and all does"""
+"""in the unit box: how far around what is fixed or would cross nothing goes to planes, and all does"""
 TRIES, GROWING = 6, 1.5
 """times, and how much farther each time"""
 _POINT = 1e-6  # extent in the unit box; what has none is held all the same
@@ -122,17 +122,16 @@ class Hardening:
     def flattened(self, U, fixed, *, may_cross=False):
         """Return the same with the moves of the hard shape U (n,3) to the planes of its sides.
 
-        Vertices `fixed` stay, and what would come to cross, as around eyes, stays with all around
-        it. Where things `may_cross`, that is not looked for.
+        Vertices `fixed` stay, and what would come to cross, as around eyes, with all around them.
+        Where things `may_cross`, that is not looked for.
         """
         base, rest = self.target.base, self.target.base.rest
         of_sides = self.side, self.target.directions, self.target.heights
         is_tilted = (base.normals * base.graph.normals).sum(axis=1) < TILTED
         moves, flat = flattening(U, rest.F, base.graph, *of_sides, is_tilted)
         moves *= 1.0 - falling(self.asked, FLAT)[:, None]
-        share = np.ones(len(U))
-        share[fixed] = 0.0
         before = replace(self, flat=np.zeros_like(flat), moves=np.zeros_like(moves)).positions(U)
+        share = _away_from(before, fixed)
         F, crossings = rest.F if rest.unrefined is None else rest.unrefined, None
         for number in range(TRIES):
             found = replace(self, flat=share * flat, moves=share[:, None] * moves)
@@ -145,8 +144,7 @@ class Hardening:
             crossing = crossings.at(X)
             if not len(crossing):
                 return found
-            far, _ = KDTree(before[np.unique(F[crossing])]).query(before)
-            share = np.minimum(share, 1.0 - falling(far, np.multiply(STILL, GROWING**number)))
+            share = np.minimum(share, _away_from(before, F[crossing], GROWING**number))
         return found
 
     def straightening(self, U, fixed, *, may_cross=False):
@@ -183,6 +181,14 @@ class Hardening:
         share = self.crispness[:, None, None]
         mixed = (1.0 - share) * self.rotations + share * R
         return fit_rotations(mixed.swapaxes(1, 2), R)
+
+
+def _away_from(U, vertices, times=1.0):
+    """Return 0 for positions (n,3) near some vertices (k,), 1 away from them, see `STILL`."""
+    if not np.size(vertices):
+        return np.ones(len(U))
+    far, _ = KDTree(U[np.unique(vertices)]).query(U)
+    return 1.0 - falling(far, np.multiply(STILL, times))
 
 
 def is_hardened(stylization):
