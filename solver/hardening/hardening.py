@@ -49,7 +49,7 @@ FLAT = 0.5, 0.9
 TILTED = 0.99
 """cosine between a triangle and the surface without details, below which these tilt it"""
 STILL = 0.005, 0.055
-"""in the unit box: how far from what is fixed or would cross nothing goes to planes, and all does"""
+"""in the unit box: how far from what is fixed or would cross nothing goes to planes, or all does"""
 TRIES, GROWING = 6, 1.5
 """times, and how much farther each time"""
 _POINT = 1e-6  # extent in the unit box; what has none is held all the same
