@@ -100,6 +100,8 @@ def _between(own, Q, form):
 
 def smallest_turns(a, b):
     """Return the smallest rotations (s,3,3) that take unit vectors a (s,3) to b (s,3)."""
+    if not len(a):  # of which older SciPy makes no rotations
+        return np.empty((0, 3, 3))
     axis, cosine = np.cross(a, b), (a * b).sum(axis=1)
     sine = np.linalg.norm(axis, axis=1)
     angle = np.arctan2(sine, cosine)
