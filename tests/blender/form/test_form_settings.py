@@ -163,7 +163,7 @@ def test_facets_of_the_form_can_be_made_planar(body_of, form):
     ball = bpy.context.object
     ball.cubic_craft.form = form
     ball.cubic_craft.orientation = (0.1, 0.2, 0.3)
-    cubify(cubeness=1.0, solidity=0.0, **OPTIONS)
+    cubify(cubeness=1.0, solidity=0.0, crispness=0.5, **OPTIONS)
     turn = np.array(Euler((0.1, 0.2, 0.3)).to_matrix())
     normals = body_of(ball).normals @ turn.T
     assert share_facing(ball, normals, 0.05) < 0.2
