@@ -37,6 +37,15 @@ def from_columns(entries):
     return entries.T.reshape(-1, 3, 3) if len(entries) == 9 else entries.T
 
 
+def smoothstep(x, start, end):
+    """Return 0 for numbers x at or before a start, 1 at or beyond an end, and smoothly between.
+
+    For NumPy. The end may be before the start: then it falls.
+    """
+    t = np.clip((x - start) / (end - start), 0.0, 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
 def by_columns(values):
     """Return a copy of numbers (n,), vectors (n,w) or matrices that lies as `from_columns` says."""
     return np.array(columns(values), order="C").T.reshape(values.shape)

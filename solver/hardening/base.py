@@ -6,6 +6,7 @@ triangle from its normal to that one. What is left of the surface are the height
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -18,6 +19,9 @@ from ..mesh.rest_measures import triangle_areas_and_normals
 from ..rest import RestMesh
 from .corners import Corners
 from .linked_faces import LinkedFaces
+
+TILTED = 0.99
+"""cosine between a triangle and the surface without details, below which these tilt it"""
 
 _STEPS = 3  # of the global step, to the base
 
@@ -37,6 +41,11 @@ class Base:
     heights: FloatArray
     """(n,) how far they are above the base, in the unit box"""
     links: LinkedFaces
+
+    @cached_property
+    def is_tilted(self):
+        """(m,) bool, the triangles that details tilt."""
+        return (self.normals * self.graph.normals).sum(axis=1) < TILTED
 
 
 def base_of(setup):

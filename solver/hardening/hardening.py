@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import KDTree
 
+from ..algebra import smoothstep
 from ..aliases import FloatArray, IntArray
 from ..mesh.components import components
 from ..proxy.samples import extents
@@ -15,7 +16,7 @@ from .base import base_of
 from .borders import straightening
 from .face_step import Target
 from .new_crossings import NewCrossings
-from .planes import falling, flattening
+from .planes import flattening
 from .rims import FREE, rims_and_flats
 from .sides import CLEAR, NO_SIDE, STEADY, sides_of
 
@@ -46,8 +47,6 @@ DRAWN = 0.2
 """cubeness from which on the crispness counts fully"""
 FLAT = 0.5, 0.9
 """crispness from which on what is nearly flat begins to go to its plane, and is there, wholly"""
-TILTED = 0.99
-"""cosine between a triangle and the surface without details, below which these tilt it"""
 STILL = 0.005, 0.055
 """in the unit box: how far from what is fixed or would cross nothing goes to planes, or all does"""
 TRIES, GROWING = 6, 1.5
@@ -84,7 +83,7 @@ class Hardening:
     @cached_property
     def crispness(self):
         """(n,) how far the vertices go to the hard shape, from 0 to 1: what is flat, wholly."""
-        return self.asked + (1.0 - falling(self.asked, FLAT)) * self.flat * (1.0 - self.asked)
+        return self.asked + smoothstep(self.asked, *FLAT) * self.flat * (1.0 - self.asked)
 
     def with_crispness(self, style):
         """Return the same with the crispness of another SolvedStyle; what was soft stays so."""
@@ -127,9 +126,8 @@ class Hardening:
         """
         base, rest = self.target.base, self.target.base.rest
         of_sides = self.side, self.target.directions, self.target.heights
-        is_tilted = (base.normals * base.graph.normals).sum(axis=1) < TILTED
-        moves, flat = flattening(U, rest.F, base.graph, *of_sides, is_tilted)
-        moves *= 1.0 - falling(self.asked, FLAT)[:, None]
+        moves, flat = flattening(U, rest.F, base.graph, *of_sides, base.is_tilted)
+        moves *= smoothstep(self.asked, *FLAT)[:, None]
         before = replace(self, flat=np.zeros_like(flat), moves=np.zeros_like(moves)).positions(U)
         share = _away_from(before, fixed)
         F, crossings = rest.F if rest.unrefined is None else rest.unrefined, None
@@ -168,13 +166,9 @@ class Hardening:
         )
         return rest.along_edges(moves)
 
-    def mixed(self, U):
-        """Return what lies between the soft shape and the hard one U (n,3), borders as they are."""
-        return self.soft + self.crispness[:, None] * (U - self.soft)
-
     def positions(self, U):
-        """Return the positions (n,3): what is `mixed`, with straight borders."""
-        return self.mixed(U + self.moves)
+        """Return the positions (n,3) between the soft shape and the hard one U (n,3)."""
+        return self.soft + self.crispness[:, None] * (U + self.moves - self.soft)
 
     def between(self, R):
         """Return the rotations (n,3,3) between the soft shape and the hard one R (n,3,3)."""
@@ -188,7 +182,7 @@ def _away_from(U, vertices, times=1.0):
     if not np.size(vertices):
         return np.ones(len(U))
     far, _ = KDTree(U[np.unique(vertices)]).query(U)
-    return 1.0 - falling(far, np.multiply(STILL, times))
+    return smoothstep(far, *np.multiply(STILL, times))
 
 
 def is_hardened(stylization):
@@ -305,8 +299,7 @@ def _share_of_thickness(rest):
         return np.ones(len(rest.V))
     component = rest.topology.component
     size = rest.options.detail * np.maximum(extents(rest.V, component), 1e-12)[component]
-    t = np.clip((rest.thickness / size - THIN[0]) / (THIN[1] - THIN[0]), 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
+    return smoothstep(rest.thickness / size, *THIN)
 
 
 def _at_faces(R, F):

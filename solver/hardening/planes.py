@@ -11,6 +11,8 @@ dies away toward the middle of it.
 import numpy as np
 from scipy.spatial import KDTree
 
+from ..algebra import smoothstep
+
 NEAR = 0.01, 0.016
 """distance from the plane, the root of its mean square, relative to the root of the area: a side
 that is nearer than the first goes to its plane, and one beyond the second does not..."""
@@ -57,7 +59,7 @@ def flattening(U, F, graph, side, directions, heights, is_tilted):
     own = region[kept]
     centers = U[F[kept]].mean(axis=1) - heights[F[kept]].mean(axis=1)[:, None] * facing[own]
     tilted = np.bincount(region, graph.areas * is_tilted, count) / np.maximum(area, _LEAST)
-    near = np.outer(1.0 + (OF_BARE - 1.0) * falling(tilted, BARE), NEAR).T
+    near = np.outer(1.0 + (OF_BARE - 1.0) * smoothstep(tilted, *BARE[::-1]), NEAR).T
     normals, offsets, shares = _planes(centers, graph.areas[kept], own, facing, area, near)
     of, at = np.divmod(np.unique(np.repeat(own, 3) * n + F[kept].ravel()), n)
     away = offsets[of] - _dots(normals[of], U[at] - heights[at, None] * facing[of])
@@ -102,9 +104,9 @@ def _planes(P, areas, region, facing, area, near):
     xx, yy = xx + least, yy + least
     a, b = np.stack([yy * xz - xy * yz, xx * yz - xy * xz]) / (xx * yy - xy * xy)
     left = z - a[region] * x - b[region] * y
-    keeping = 1.0 - falling(np.hypot(a, b), UPRIGHT)
+    keeping = smoothstep(np.hypot(a, b), *UPRIGHT)
     a, b = a * keeping, b * keeping
-    shares = falling(np.sqrt(mean(left * left) / np.maximum(area, _LEAST)), near)
+    shares = smoothstep(np.sqrt(mean(left * left) / np.maximum(area, _LEAST)), *near[::-1])
     normals = facing - a[:, None] * axes[0] - b[:, None] * axes[1]
     normals /= np.maximum(np.linalg.norm(normals, axis=1), _LEAST)[:, None]
     return normals, _dots(normals, middle), shares
@@ -130,17 +132,11 @@ def _take_along(moves, places, at, is_edge, normals, reach):
     distance, nearest = KDTree(places[is_edge]).query(places[inside], count, workers=-1)
     distance, nearest = distance.reshape(-1, count), nearest.reshape(-1, count)
     weight = 1.0 / np.maximum(distance, _LEAST) ** 2
-    near = falling(distance[:, 0] / np.maximum(reach[inside], _LEAST), (0.0, 1.0))
+    near = smoothstep(distance[:, 0] / np.maximum(reach[inside], _LEAST), 1.0, 0.0)
     weight *= (near / weight.sum(axis=1))[:, None]
     along = np.einsum("kj,kji->ki", weight, moves[edge][nearest])
     along -= _dots(along, normals[inside])[:, None] * normals[inside]
     np.add.at(moves, at[inside], along)
-
-
-def falling(x, ends):
-    """Return 1 for what is below the first end, 0 beyond the second, and smoothly between."""
-    t = np.clip((ends[1] - x) / (ends[1] - ends[0]), 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
 
 
 def _dots(a, b):

@@ -23,6 +23,7 @@ from functools import reduce
 import numpy as np
 import scipy.sparse as sp
 
+from ..algebra import smoothstep
 from ..details import unit
 from ..mesh.components import components
 from ..styles.forms import cube
@@ -289,7 +290,5 @@ def _leaning(graph, local, side, faced, form_of):
 
 def straightened(mean, faced):
     """Return unit normals between means (m,3) and what they face (m,3), which is kept if near."""
-    t = (np.einsum("mj,mj->m", mean, faced) - LEANING[1]) / (LEANING[0] - LEANING[1])
-    t = np.clip(t, 0.0, 1.0)
-    t = (t * t * (3.0 - 2.0 * t))[:, None]
+    t = smoothstep(np.einsum("mj,mj->m", mean, faced), *LEANING[::-1])[:, None]
     return np.where(t > 0.0, unit(t * mean + (1.0 - t) * faced), faced)

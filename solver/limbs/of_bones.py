@@ -12,6 +12,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
+from ..algebra import smoothstep
 from ..aliases import FloatArray, IntArray
 from ..inputs import vectors
 from .limbs import KnownLimbs
@@ -211,8 +212,7 @@ def _confidence(bones):
     following = _following(bones)
     total = _total_lengths(bones, following)
     ratio = total / np.where(bones.widths > 0.0, bones.widths, np.inf)
-    x = np.clip((ratio - NONE) / (FULL - NONE), 0.0, 1.0)
-    own = x * x * (3.0 - 2.0 * x)
+    own = smoothstep(ratio, NONE, FULL)
     confidence, end_of = own.copy(), np.full(len(own), -1)
     is_foot = np.zeros(len(own), dtype=bool)
     for bone in _from_the_root(bones.parents):

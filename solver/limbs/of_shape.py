@@ -18,6 +18,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components, dijkstra
 
+from ..algebra import smoothstep
 from ..aliases import FloatArray, IntArray
 from .limbs import Limbs, no_limbs
 
@@ -256,8 +257,7 @@ def _measured(skeleton):
     slope = np.abs((moment * axis).sum(axis=1)) / np.maximum(spread[:, 2] ** 2 / 12.0, 1e-12)
     for k in np.flatnonzero(slope > TAPER):
         length[k] = max(length[k], np.ptp(skeleton.reach[window[k] > 0.0] @ axis[k]))
-    x = np.clip((length / width - NONE) / (FULL - NONE), 0.0, 1.0)
-    own = x * x * (3.0 - 2.0 * x)
+    own = smoothstep(length / width, NONE, FULL)
     across = np.ptp(skeleton.reach @ axes[:, :, :2], axis=1).max(axis=1)
     is_wide = window @ (across > SHEET * width) > 0.5 * total[:, 0]
     own[is_wide] = 0.0

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The edges of triangles, and which triangles share them."""
 
+from functools import cached_property
+
 import numpy as np
 
 
@@ -23,6 +25,11 @@ class Edges:
         self._is_new = is_new
         first = self._order[is_new]
         self.lower, self.upper = lower[first], upper[first]
+
+    @cached_property
+    def uses(self):
+        """(e,) int, how many triangles have each edge: an open one has one."""
+        return np.bincount(self.number.ravel())
 
     def triangles(self):
         """Return pairs (k,) and (k,) of triangles that have an edge in common.

@@ -68,7 +68,7 @@ def check_winding(F: IntArray, count: int) -> None:
     """
     edges = Edges(F, count)
     number = edges.number.ravel()
-    has_two = np.bincount(number) == 2
+    has_two = edges.uses == 2
     backward = np.bincount(number, edges.is_backward.ravel())
     share = float((has_two & (backward != 1)).sum()) / max(1, int(has_two.sum()))
     if share > MOST_REVERSED:

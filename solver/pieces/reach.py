@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..algebra import smoothstep
 from ..aliases import FloatArray, IntArray
 from .handle_pose import HandlePose
 
@@ -58,8 +59,7 @@ def far_from(seeds: IntArray, V: FloatArray, F: IntArray) -> FloatArray:
         largest = float(distance.max())
     if not largest > 0.0:
         return np.zeros(len(V))
-    t = np.clip((distance / largest - NEAR) / (FAR - NEAR), 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
+    return smoothstep(distance / largest, NEAR, FAR)
 
 
 def rest_weights(

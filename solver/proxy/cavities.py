@@ -72,7 +72,7 @@ def _joined(pairs):
 
 def _openings(edges, part):
     """Return how many open rims each part has."""
-    is_rim = np.bincount(edges.number.ravel()) == 1
+    is_rim = edges.uses == 1
     vertices, ends = np.unique(
         np.stack([edges.lower, edges.upper], axis=1)[is_rim], return_inverse=True
     )

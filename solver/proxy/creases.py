@@ -8,6 +8,7 @@ ignored, and its area is given to the vertices beside it, which each have the no
 
 import numpy as np
 
+from ..algebra import smoothstep
 from ..mesh.cotangents import cotangents
 from ..mesh.edge_vectors import BLOCK
 from ..mesh.edges import edges_of
@@ -52,8 +53,7 @@ def smoothness(F, C, measures, n):
     total = _at_vertices(corners, angles, n)
     sums = np.stack([_at_vertices(corners, angles * x, n) for x in normals.T], axis=1)
     coherence = np.linalg.norm(sums, axis=1) / np.where(total > 0.0, total, 1.0)
-    t = np.clip((coherence - NONE) / (FULL - NONE), 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
+    return smoothstep(coherence, NONE, FULL)
 
 
 def mute_sides(V, F):

@@ -139,7 +139,7 @@ def outward_sign(triangles, part):
     count = int(part.max(initial=-1)) + 1
     V, edges = triangles.V, triangles.edges
     number = edges.number.ravel()
-    uses = np.bincount(number)
+    uses = edges.uses
     balance = np.bincount(number, np.where(edges.is_backward.ravel(), -1.0, 1.0))
     owner = part[edges.lower]
     is_border = uses == 1
