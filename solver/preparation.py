@@ -138,6 +138,7 @@ def rest_mesh(
         unrefined=surface.unrefined,
         pieces=surface.pieces,
         faces=surface.faces,
+        given_faces=faces,
     )
 
 

@@ -97,6 +97,8 @@ class RestMesh(Value):
     """(m,) int that of these which each triangle is a piece of, or None"""
     faces: IntArray | None = None
     """(l,) int the face of the input that each of these is a piece of; None if they are whole"""
+    given_faces: IntArray | None = None
+    """(k,) int the face of the input that each of `triangles` is a piece of, or None"""
     is_cage: bool = False
     """whether these are the faces of a coarser mesh, which is to follow"""
     unposed: RestMesh | None = None

@@ -30,6 +30,7 @@ from ..proxy.sheets import is_ground
 from .crossings import DEPTH, crossings
 from .gaps import Gaps
 from .pairs import links_against, merged, mirrored
+from .polygons import are_apart
 from .push import heights, pushed
 from .riding import riding
 from .shown import shown
@@ -123,7 +124,7 @@ class KeepApart:
             self._crossing = self._pairs_after(self._crossing, before, U)
         pairs = self._crossing
         pairs = pairs[~np.isin(pairs, self._at_end).all(axis=1)]
-        pairs = pairs[~are_where_parts_crossed(self._rest, pairs)]
+        pairs = self._amiss(pairs)
         if self._may_press:
             pairs = pairs[~self._are_of_two_parts(pairs)]
         self._found = pairs
@@ -234,8 +235,7 @@ class KeepApart:
             stylization = stylization.with_riding(riding(self._rest, is_carried))
             U = stylization.positions
             with_cards = self._with_cards(U, cards)
-        pairs = np.concatenate([self._crossing, with_cards])
-        pairs = pairs[~are_where_parts_crossed(self._rest, pairs)]
+        pairs = self._amiss(np.concatenate([self._crossing, with_cards]))
         pairs = pairs[shown(U, self._shown, pairs)]
         crossing = self._triangles(pairs)
         self.crossings = len(np.unique(crossing))
@@ -244,6 +244,12 @@ class KeepApart:
             self.pressed = self.crossings - len(np.unique(failed))
         self.vertices = np.unique(self._rest.triangles[crossing])
         return stylization
+
+    def _amiss(self, pairs):
+        """Return those of pairs (k,2) that are not where parts crossed, nor of one fold."""
+        pairs = pairs[~are_where_parts_crossed(self._rest, pairs)]
+        apart = are_apart(self._rest.given_faces, self._shown) if len(pairs) else None
+        return pairs if apart is None else pairs[apart(pairs)]
 
     def _are_of_two_parts(self, pairs):
         """Return which pairs (k,2) are of two parts, neither of which is worn by others.

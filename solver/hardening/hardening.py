@@ -14,6 +14,7 @@ from ..proxy.samples import extents
 from ..rotation_fit import fit_rotations, orthonormalize
 from .base import base_of
 from .borders import straightening
+from .carrying import carried
 from .face_step import Target
 from .new_crossings import NewCrossings
 from .planes import flattening
@@ -79,6 +80,8 @@ class Hardening:
     """(m,3) as `sides_of` returns them"""
     moves: FloatArray
     """(n,3) of the vertices of the hard shape, to planes and to straight borders"""
+    along: FloatArray
+    """(n,3) how far they go along with what they are linked to, however crisp they are"""
 
     @cached_property
     def crispness(self):
@@ -126,19 +129,23 @@ class Hardening:
         """
         base, rest = self.target.base, self.target.base.rest
         of_sides = self.side, self.target.directions, self.target.heights
-        moves, flat = flattening(U, rest.F, base.graph, *of_sides, base.is_tilted)
+        thickness = np.where(np.isfinite(rest.thickness), rest.thickness, 0.0)[rest.F].mean(axis=1)
+        moves, flat = flattening(U, rest.F, base.graph, *of_sides, base.is_tilted, thickness)
         moves *= smoothstep(self.asked, *FLAT)[:, None]
-        before = replace(self, flat=np.zeros_like(flat), moves=np.zeros_like(moves)).positions(U)
+        nothing = np.zeros_like(moves)
+        round_ = replace(self, flat=np.zeros_like(flat), moves=nothing, along=nothing)
+        before = round_.positions(U)
         share = _away_from(before, fixed)
         F, crossings = rest.F if rest.unrefined is None else rest.unrefined, None
         for number in range(TRIES):
-            found = replace(self, flat=share * flat, moves=share[:, None] * moves)
+            found = replace(round_, flat=share * flat, moves=share[:, None] * moves)
+            found = replace(found, along=carried(rest, found.positions(U) - before, fixed))
             X = found.positions(U)
             is_moved = (before != X).any(axis=1)[F].any(axis=1)
             if may_cross or not is_moved.any():
                 return found
             if crossings is None:
-                crossings = NewCrossings(before, X, F, is_moved, rest.faces)
+                crossings = NewCrossings(before, X, F, is_moved, rest.faces, rest.topology.part)
             crossing = crossings.at(X)
             if not len(crossing):
                 return found
@@ -168,7 +175,7 @@ class Hardening:
 
     def positions(self, U):
         """Return the positions (n,3) between the soft shape and the hard one U (n,3)."""
-        return self.soft + self.crispness[:, None] * (U + self.moves - self.soft)
+        return self.soft + self.crispness[:, None] * (U + self.moves - self.soft) + self.along
 
     def between(self, R):
         """Return the rotations (n,3,3) between the soft shape and the hard one R (n,3,3)."""
@@ -269,7 +276,7 @@ def _raised(stylization, base, firm, sides, hold, plate):
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold, slides=plate)
     asked, still = firm * _crispness_of(style), np.zeros_like(soft)
     flat = np.zeros(len(soft))
-    return Hardening(solved, soft, R, asked, firm, flat, target, side, facing, still)
+    return Hardening(solved, soft, R, asked, firm, flat, target, side, facing, still, still)
 
 
 def _crispness_of(style):

@@ -18,7 +18,10 @@ NEAR = 0.01, 0.016
 that is nearer than the first goes to its plane, and one beyond the second does not..."""
 OF_BARE, BARE = 1.5, (0.02, 0.04)
 """...times so much where details tilt no more than the first share of its area, but not where they
-tilt the second: what is a face is not to be bent"""
+tilt the second: what is a face is not to be bent,..."""
+OF_THICK, SHALLOW = 3.0, (0.06, 0.075)
+"""...and times so much where, beside that, the distance is less than the first of the thickness,
+but not beyond the second: a roof becomes flat, and what is slender keeps its bends"""
 UPRIGHT = 0.01, 0.02
 """slope to the direction of the side: a plane with less than the first has none, and one with more
 than the second keeps it"""
@@ -31,7 +34,7 @@ _FAR = 10.0  # between regions, so that none is nearest to those of another
 _LEAST = 1e-12
 
 
-def flattening(U, F, graph, side, directions, heights, is_tilted):
+def flattening(U, F, graph, side, directions, heights, is_tilted, thickness):
     """Return how far vertices (n,3) have to move, and how far they belong to planes (n,), 0 to 1.
 
     Parameters
@@ -48,6 +51,8 @@ def flattening(U, F, graph, side, directions, heights, is_tilted):
         Of the details, above the planes.
     is_tilted : (m,) bool array
         Triangles that details tilt.
+    thickness : (m,) array
+        Of the shape at the triangles, zero where there is none.
     """
     n, is_same = len(U), (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
     count, region = graph.regions(is_same)
@@ -55,13 +60,13 @@ def flattening(U, F, graph, side, directions, heights, is_tilted):
     facing, has_one = _facing(directions, graph.areas, region, area)
     has_one &= np.bincount(region, minlength=count) >= FEWEST
     has_one[region[side < 0]] = False
-    kept = np.flatnonzero(has_one[region])
-    own = region[kept]
-    centers = U[F[kept]].mean(axis=1) - heights[F[kept]].mean(axis=1)[:, None] * facing[own]
+    facing[~has_one] = 0.0  # they only follow their edges
+    centers = U[F].mean(axis=1) - heights[F].mean(axis=1)[:, None] * facing[region]
     tilted = np.bincount(region, graph.areas * is_tilted, count) / np.maximum(area, _LEAST)
-    near = np.outer(1.0 + (OF_BARE - 1.0) * smoothstep(tilted, *BARE[::-1]), NEAR).T
-    normals, offsets, shares = _planes(centers, graph.areas[kept], own, facing, area, near)
-    of, at = np.divmod(np.unique(np.repeat(own, 3) * n + F[kept].ravel()), n)
+    normals, offsets, distance = _planes(centers, graph.areas, region, facing)
+    thick = np.bincount(region, graph.areas * thickness, count) / np.maximum(area, _LEAST)
+    shares = np.where(has_one, _nearness(distance, area, tilted, thick), 0.0)
+    of, at = np.divmod(np.unique(np.repeat(region, 3) * n + F.ravel()), n)
     away = offsets[of] - _dots(normals[of], U[at] - heights[at, None] * facing[of])
     moves, flat = _to_planes(n, at, normals[of], shares[of], away)
     is_edge = np.bincount(at, minlength=n)[at] > 1
@@ -82,13 +87,25 @@ def _facing(directions, areas, region, area):
     return means / np.maximum(length, _LEAST)[:, None], length > _ALIKE
 
 
-def _planes(P, areas, region, facing, area, near):
-    """Return unit normals (r,3), offsets (r,) and shares (r,) of the planes of regions.
+def _nearness(distance, area, tilted, thick):
+    """Return how far regions (r,) go to planes at such distances, from 0 to 1, see `NEAR`.
 
-    `P`: (k,3), the places of triangles with `areas` (k,) in a `region` (k,). `facing`: (r,3).
-    `area`: (r,). `near`: (2,r), `NEAR` of each.
+    `tilted`: (r,) share of the area that details tilt. `thick`: (r,) thickness.
     """
-    count = len(area)
+    share = distance / np.sqrt(np.maximum(area, _LEAST))
+    bare = smoothstep(tilted, *BARE[::-1])
+    shallow = bare * smoothstep(distance / np.maximum(thick, _LEAST), *SHALLOW[::-1])
+    near = 1.0 + (OF_BARE - 1.0) * bare + (OF_THICK - OF_BARE) * shallow
+    return smoothstep(share / near, *NEAR[::-1])
+
+
+def _planes(P, areas, region, facing):
+    """Return unit normals (r,3) and offsets (r,) of the planes of regions, and distances (r,).
+
+    These are from the places, the root of the mean square. `P`: (k,3), the places of triangles with
+    `areas` (k,) in a `region` (k,). `facing`: (r,3).
+    """
+    count = len(facing)
     total = np.maximum(np.bincount(region, areas, count), _LEAST)
 
     def mean(values):
@@ -106,10 +123,9 @@ def _planes(P, areas, region, facing, area, near):
     left = z - a[region] * x - b[region] * y
     keeping = smoothstep(np.hypot(a, b), *UPRIGHT)
     a, b = a * keeping, b * keeping
-    shares = smoothstep(np.sqrt(mean(left * left) / np.maximum(area, _LEAST)), *near[::-1])
     normals = facing - a[:, None] * axes[0] - b[:, None] * axes[1]
     normals /= np.maximum(np.linalg.norm(normals, axis=1), _LEAST)[:, None]
-    return normals, _dots(normals, middle), shares
+    return normals, _dots(normals, middle), np.sqrt(mean(left * left))
 
 
 def _to_planes(n, at, normals, shares, away):
