@@ -290,9 +290,17 @@ class Run:
             self._phase = partial(Run._part, apart=copy(soft_apart))
 
     def _part(self, apart: KeepApart) -> None:
-        """Push apart what has come to cross: to be left soft, it takes what is around it along."""
+        """Push apart what has come to cross: to be left soft, it takes what is around it along.
+
+        Parts that cross at rest may cross elsewhere as their sides become flat, but for those of
+        which more comes to light.
+        """
         hard = self._present_hard
-        if len(apart.look(hard)):
+        crossing, parts = apart.look(hard), apart.parts_found
+        if len(parts):
+            hard.straighten_borders(apart=parts)
+            crossing = apart.look(hard)
+        if len(crossing):
             self.stylization = hard.moved_to(apart.parted(hard))
         soften = partial(Run._soften, last=apart, is_between_parts=apart.is_between_parts)
         self._phase = soften

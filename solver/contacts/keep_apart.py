@@ -135,6 +135,12 @@ class KeepApart:
         """Whether nearly all that `look` has found is of two parts."""
         return bool(len(self._found) and self._are_of_two_parts(self._found).mean() > BETWEEN)
 
+    @property
+    def parts_found(self):
+        """(k,2) int the pairs of parts that `look` has found to cross, the lower number first."""
+        parts = self._rest.topology.part[self._shown[self._found, 0]]
+        return np.unique(np.sort(parts[parts[:, 0] != parts[:, 1]], axis=1), axis=0)
+
     def pressing(self):
         """Return the same for parts that may press into each other.
 

@@ -1,12 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts go along with what they are linked to as its sides become flat: eyes with a face."""
+"""What goes along as sides become flat: linked parts, as eyes with a face, and what would cross."""
+
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import spsolve
+from scipy.spatial import KDTree
 
+from ..algebra import smoothstep
+from ..mesh.components import components
+
+STILL = 0.005, 0.055
+"""in the unit box: how far from what is fixed or would cross nothing goes to planes, or all does"""
 _MASS = 1e-3  # of the links of a part: the lighter of two goes along, and what is fixed stays
 _FIXED = 1e3  # times the area of all
+_NEAREST = 6  # places of what would cross that take others along
+_POINT = 1e-6
 
 
 def carried(rest, moves, fixed):
@@ -18,22 +27,46 @@ def carried(rest, moves, fixed):
 
     for the translations t of parts p of areas a. Those with vertices `fixed` stay.
     """
+    from scipy.sparse.linalg import spsolve  # takes a tenth of a second to import
+
     part, links = rest.topology.part, rest.to_neighbors
-    used = (links.coefficients != 0.0) & (links.weights.any(axis=1))[:, None]
     first, other = part[links.vertices[:, 0]], part[links.vertices[:, 1]]
-    rows = np.flatnonzero(used[:, 1] & (first != other) & moves[links.vertices].any(axis=(1, 2)))
-    if not len(rows):
+    rows = np.flatnonzero((first != other) & links.weights.any(axis=1))
+    if not len(rows) or not moves.any():
         return np.zeros_like(moves)
-    first, other, coefficients = first[rows], other[rows], links.coefficients[rows]
-    apart = np.einsum("kj,kjx->kx", coefficients, moves[links.vertices[rows]])
-    weight, count = links.weights[rows].sum(axis=1), int(part.max()) + 1
-    k = np.arange(len(rows))
-    sign = coefficients[:, 0]
-    at = np.concatenate([k, k]), np.concatenate([first, other])
-    D = sp.csr_matrix((np.concatenate([sign, -sign]), at), shape=(len(rows), count))
+    c, weight, count = links.coefficients[rows], links.weights[rows].sum(axis=1), part.max() + 1
+    apart = np.einsum("kj,kjx->kx", c, moves[links.vertices[rows]])
+    at = np.tile(np.arange(len(rows)), 2), np.concatenate([first[rows], other[rows]])
+    ends = sp.csr_matrix((np.concatenate([c[:, 0], -c[:, 0]]), at), shape=(len(rows), count))
     mass = np.bincount(part, rest.areas, count)
     mass[part[fixed]] += _FIXED * mass.sum()
-    pull = D.T @ sp.diags(weight) @ D
-    matrix = pull + sp.diags(_MASS * weight.sum() * mass / mass.sum() + 1e-300)
-    along = spsolve(matrix.tocsc(), -D.T @ (weight[:, None] * apart))
+    mass *= _MASS * weight.sum() / mass.sum()
+    pulls = ends.multiply(weight[:, None]).T.tocsr()
+    matrix: Any = pulls @ ends + sp.diags(mass)
+    along: Any = spsolve(matrix.tocsc(), -pulls @ apart)
     return along.reshape(count, 3)[part]
+
+
+def away_from(U, vertices, times=1.0):
+    """Return 0 for positions (n,3) near some vertices (k,), 1 away from them, see `STILL`."""
+    if not np.size(vertices):
+        return np.ones(len(U))
+    far, _ = KDTree(U[np.unique(vertices)]).query(U)
+    return smoothstep(far, *np.multiply(STILL, times))
+
+
+def together(U, pairs, moves):
+    """Return how far (n,3) what is near things that would come to cross goes along with them.
+
+    Each group of these goes as one, by the mean of its moves. `U`, `moves`: (n,3). `pairs`: (k,6)
+    int, corners of two triangles each.
+    """
+    at, number = np.unique(pairs, return_inverse=True)
+    count, group = components(number.reshape(pairs.shape), len(at))
+    sums = np.stack([np.bincount(group, column, count) for column in moves[at].T], axis=1)
+    means = sums / np.bincount(group, minlength=count)[:, None]
+    count = min(_NEAREST, len(at))
+    distance, nearest = (x.reshape(-1, count) for x in KDTree(U[at]).query(U, count))
+    weights = 1.0 / np.maximum(distance, _POINT) ** 2
+    weights /= weights.sum(axis=1, keepdims=True)
+    return np.einsum("nk,nkj->nj", weights, means[group[nearest]])

@@ -49,17 +49,18 @@ class HardStylization(Stylization):
         """Go on with the volume of the soft shape, see `FaceStep`."""
         self._local.give_back_volume(self._motion.positions)
 
-    def straighten_borders(self, *, may_cross: bool = False) -> None:
+    def straighten_borders(self, *, may_cross: bool = False, apart: ArrayLike = ()) -> None:
         """Make sides that are nearly flat flat, and the borders of all sides straight.
 
         The borders where they are now, between soft and hard. Not those of a cage, which follow its
         edges: it could not follow them elsewhere. Where they `may_cross` others, that is not looked
-        for.
+        for. Of parts that cross already, `apart`, (k,2) int, are the pairs that are to cross no
+        more than they do.
         """
         if self.rest.is_cage:
             return
         fixed, hard = self.setup.pinned, self._motion.positions
-        self.hardening = self.hardening.flattened(hard, fixed, may_cross=may_cross)
+        self.hardening = self.hardening.flattened(hard, fixed, may_cross=may_cross, apart=apart)
         U = self.hardening.positions(hard)
         share = self.hardening.crispness[:, None]
         straight = U + self.hardening.straightening(U, fixed, may_cross=may_cross)

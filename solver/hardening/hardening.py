@@ -14,7 +14,7 @@ from ..proxy.samples import extents
 from ..rotation_fit import fit_rotations, orthonormalize
 from .base import base_of
 from .borders import straightening
-from .carrying import carried
+from .carrying import away_from, carried, together
 from .face_step import Target
 from .new_crossings import NewCrossings
 from .planes import flattening
@@ -48,10 +48,8 @@ DRAWN = 0.2
 """cubeness from which on the crispness counts fully"""
 FLAT = 0.5, 0.9
 """crispness from which on what is nearly flat begins to go to its plane, and is there, wholly"""
-STILL = 0.005, 0.055
-"""in the unit box: how far from what is fixed or would cross nothing goes to planes, or all does"""
 TRIES, GROWING = 6, 1.5
-"""times, and how much farther each time"""
+"""times that what would cross goes as one, with how much more around it each time"""
 _POINT = 1e-6  # extent in the unit box; what has none is held all the same
 _ORTHONORMALIZATIONS = 4
 
@@ -121,11 +119,12 @@ class Hardening:
         parts = {name: left * getattr(self, name) for name in ("asked", "firm", "flat")}
         return replace(self, soft=soft, **parts)
 
-    def flattened(self, U, fixed, *, may_cross=False):
+    def flattened(self, U, fixed, *, may_cross=False, apart=()):
         """Return the same with the moves of the hard shape U (n,3) to the planes of its sides.
 
-        Vertices `fixed` stay, and what would come to cross, as around eyes, with all around them.
-        Where things `may_cross`, that is not looked for.
+        Linked parts go along. Vertices `fixed` stay, with all around them, and what would come to
+        cross goes as one, with all around it. Where things `may_cross`, that is not looked for, nor
+        is it for two parts that cross before, but for those to be `apart`, (k,2) int.
         """
         base, rest = self.target.base, self.target.base.rest
         of_sides = self.side, self.target.directions, self.target.heights
@@ -135,21 +134,25 @@ class Hardening:
         nothing = np.zeros_like(moves)
         round_ = replace(self, flat=np.zeros_like(flat), moves=nothing, along=nothing)
         before = round_.positions(U)
-        share = _away_from(before, fixed)
-        F, crossings = rest.F if rest.unrefined is None else rest.unrefined, None
+        free = share = away_from(before, fixed)
+        found = replace(round_, flat=share * flat, moves=share[:, None] * moves)
+        of_parts = carried(rest, found.positions(U) - before, fixed)
+        found = replace(found, along=free[:, None] * of_parts)
+        X, F = found.positions(U), rest.F if rest.unrefined is None else rest.unrefined
+        is_moved = (before != X).any(axis=1)[F].any(axis=1)
+        if may_cross or not is_moved.any():
+            return found
+        crossings = NewCrossings(before, X, F, is_moved, rest.faces, rest.topology.part, apart)
+        known = crossing = crossings.at(X)
         for number in range(TRIES):
-            found = replace(round_, flat=share * flat, moves=share[:, None] * moves)
-            found = replace(found, along=carried(rest, found.positions(U) - before, fixed))
-            X = found.positions(U)
-            is_moved = (before != X).any(axis=1)[F].any(axis=1)
-            if may_cross or not is_moved.any():
-                return found
-            if crossings is None:
-                crossings = NewCrossings(before, X, F, is_moved, rest.faces, rest.topology.part)
-            crossing = crossings.at(X)
             if not len(crossing):
-                return found
-            share = np.minimum(share, _away_from(before, F[crossing], GROWING**number))
+                break
+            share = np.minimum(share, away_from(before, F[crossing], GROWING**number))
+            as_one = together(before, F[known].reshape(-1, 6), X - before)
+            along = share[:, None] * of_parts + (free - share)[:, None] * as_one
+            found = replace(found, flat=share * flat, moves=share[:, None] * moves, along=along)
+            crossing = crossings.at(found.positions(U))
+            known = np.concatenate([known, crossing])
         return found
 
     def straightening(self, U, fixed, *, may_cross=False):
@@ -182,14 +185,6 @@ class Hardening:
         share = self.crispness[:, None, None]
         mixed = (1.0 - share) * self.rotations + share * R
         return fit_rotations(mixed.swapaxes(1, 2), R)
-
-
-def _away_from(U, vertices, times=1.0):
-    """Return 0 for positions (n,3) near some vertices (k,), 1 away from them, see `STILL`."""
-    if not np.size(vertices):
-        return np.ones(len(U))
-    far, _ = KDTree(U[np.unique(vertices)]).query(U)
-    return smoothstep(far, *np.multiply(STILL, times))
 
 
 def is_hardened(stylization):
