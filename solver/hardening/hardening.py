@@ -128,7 +128,8 @@ class Hardening:
         """
         base, rest = self.target.base, self.target.base.rest
         of_sides = self.side, self.target.directions, self.target.heights
-        thickness = np.where(np.isfinite(rest.thickness), rest.thickness, 0.0)[rest.F].mean(axis=1)
+        counts = np.isfinite(rest.thickness) & ~rest.is_flat  # a roof of flat sides keeps its ridge
+        thickness = np.where(counts, rest.thickness, 0.0)[rest.F].mean(axis=1)
         moves, flat = flattening(U, rest.F, base.graph, *of_sides, base.is_tilted, thickness)
         moves *= smoothstep(self.asked, *FLAT)[:, None]
         nothing = np.zeros_like(moves)

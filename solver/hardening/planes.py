@@ -21,7 +21,7 @@ OF_BARE, BARE = 1.5, (0.02, 0.04)
 tilt the second: what is a face is not to be bent,..."""
 OF_THICK, SHALLOW = 3.0, (0.06, 0.075)
 """...and times so much where, beside that, the distance is less than the first of the thickness,
-but not beyond the second: a roof becomes flat, and what is slender keeps its bends"""
+but not beyond the second: a cushion becomes flat, and what is slender keeps its bends"""
 UPRIGHT = 0.01, 0.02
 """slope to the direction of the side: a plane with less than the first has none, and one with more
 than the second keeps it"""
@@ -52,7 +52,7 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness):
     is_tilted : (m,) bool array
         Triangles that details tilt.
     thickness : (m,) array
-        Of the shape at the triangles, zero where there is none.
+        Of the shape at the triangles, zero where there is none or none that counts.
     """
     n, is_same = len(U), (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
     count, region = graph.regions(is_same)

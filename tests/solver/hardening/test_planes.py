@@ -26,11 +26,12 @@ def bulging(bulge, slope=0.3, n=12):
     return V, F, side
 
 
-def flattened(V, F, side, heights=None, *, is_tilted=False):
+def flattened(V, F, side, heights=None, *, is_tilted=False, thickness=0.0):
     up = np.tile([0.0, 0.0, 1.0], (len(F), 1))
     heights = np.zeros(len(V)) if heights is None else heights
     tilted = np.full(len(F), is_tilted)
-    return flattening(V, F, FaceGraph(V, F), side, up, heights, tilted)
+    thick = np.full(len(F), thickness)
+    return flattening(V, F, FaceGraph(V, F), side, up, heights, tilted, thick)
 
 
 def from_planes(U, F, side):
@@ -69,6 +70,23 @@ def test_a_face_is_bent_by_less_than_what_is_bare():
     assert flattened(V, F, side, is_tilted=True)[1].max() < 0.5
 
 
+def test_what_is_thick_loses_a_larger_bulge_than_what_is_slender():
+    V, F, side = bulging((0.1, 0.1))
+    assert flattened(V, F, side, thickness=0.7)[1].min() > 0.99
+    assert flattened(V, F, side, thickness=0.15)[1].max() < 0.1
+    assert flattened(V, F, side, thickness=0.7, is_tilted=True)[1].max() < 0.1
+
+
+def test_a_side_without_a_plane_follows_its_edges():
+    V, F, side = bulging((0.06, 0.2))
+    moves, flat = flattened(V, F, side)
+    assert flat[V[:, 0] < 0.5].min() > 0.99 and not flat[V[:, 0] > 0.5].any()
+    row = np.abs(V[:, 1] - 0.5) < 0.01
+    along = np.linalg.norm(moves[row], axis=1)[np.argsort(V[row, 0])]
+    assert along[6] > 0.01, "the edge"
+    assert 0.4 * along[6] < along[7] < along[6] and along[-1] < 1e-4
+
+
 def test_details_stay_as_high_as_they_are():
     V, F, side = bulging((0.03, 0.03))
     heights = np.zeros(len(V))
@@ -99,3 +117,16 @@ def test_a_pin_in_the_middle_of_a_side_stays():
     made = Run(Stylization(setup, Style(0.4, crispness=1.0)))
     made.complete()
     np.testing.assert_allclose(made.result().positions[pinned], V[pinned], atol=1e-9)
+
+
+def test_balls_that_are_stuck_together_become_cubes_of_planes():
+    """Sides that move cross a part that is stuck in them elsewhere, and it goes along."""
+    V, F = uv_sphere(32, 16)
+    V = np.concatenate([V, 0.7 * V + [0.0, 0.0, 1.4], 0.15 * V + [0.0, -1.0, 0.1]])
+    F = np.concatenate([F + k * (len(V) // 3) for k in range(3)])
+    made = Run(Stylization(Setup(rest_mesh(V, F)), Style(0.4, crispness=0.9)))
+    made.complete()
+    result = made.result()
+    assert share_facing(result.positions, F, degrees=2.0) > 0.9 and result.crossings == 0
+    knob, body = (result.positions[k * len(V) // 3 :][: len(V) // 3, 1] for k in (2, 0))
+    assert knob.min() < body.min() - 0.08 and knob.max() > body.min() + 0.08
