@@ -71,7 +71,7 @@ def test_a_face_is_bent_by_less_than_what_is_bare():
 
 
 def test_what_is_thick_loses_a_larger_bulge_than_what_is_slender():
-    V, F, side = bulging((0.1, 0.1))
+    V, F, side = bulging((0.13, 0.13))
     assert flattened(V, F, side, thickness=0.7)[1].min() > 0.99
     assert flattened(V, F, side, thickness=0.15)[1].max() < 0.1
     assert flattened(V, F, side, thickness=0.7, is_tilted=True)[1].max() < 0.1
