@@ -61,7 +61,7 @@ def flattening(U, F, graph, side, directions, heights, is_tilted):
     tilted = np.bincount(region, graph.areas * is_tilted, count) / np.maximum(area, _LEAST)
     near = np.outer(1.0 + (OF_BARE - 1.0) * smoothstep(tilted, *BARE[::-1]), NEAR).T
     normals, offsets, shares = _planes(centers, graph.areas[kept], own, facing, area, near)
-    of, at = np.divmod(np.unique(np.repeat(own, 3) * n + F[kept].ravel()), n)
+    of, at = np.divmod(np.unique(np.repeat(own.astype(np.int64), 3) * n + F[kept].ravel()), n)
     away = offsets[of] - _dots(normals[of], U[at] - heights[at, None] * facing[of])
     moves, flat = _to_planes(n, at, normals[of], shares[of], away)
     is_edge = np.bincount(at, minlength=n)[at] > 1

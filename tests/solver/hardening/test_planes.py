@@ -99,3 +99,15 @@ def test_a_pin_in_the_middle_of_a_side_stays():
     made = Run(Stylization(setup, Style(0.4, crispness=1.0)))
     made.complete()
     np.testing.assert_allclose(made.result().positions[pinned], V[pinned], atol=1e-9)
+
+
+def test_however_many_regions_there_are():
+    """The number of the region times that of the vertices is more than 32 bit hold."""
+    V, F, side = bulging((0.03, 0.03))
+    alone = flattened(V, F, side)[0]
+    others = np.arange(90_000).reshape(-1, 3)
+    places = np.tile([[5.0, 0.0, 0.0], [6.0, 0.0, 0.0], [5.0, 1.0, 0.0]], (len(others), 1))
+    F = np.concatenate([others, F + others.size])
+    side = np.concatenate([np.full(len(others), -1), side])
+    moves, _ = flattened(np.concatenate([places, V]), F, side)
+    np.testing.assert_allclose(moves[others.size :], alone, atol=1e-12)
