@@ -3,7 +3,6 @@
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,7 +23,7 @@ from .proxy.creases import cubic_shares, smoothness
 from .proxy.flat_sides import stiffness
 from .proxy.neighbors import neighbor_links
 from .proxy.sheets import planar_sheets
-from .proxy.thickness import thickness_links
+from .proxy.thickness import outward_sign, thickness_links
 from .rest import LIGHT, RestMesh
 
 
@@ -142,6 +141,7 @@ def rest_mesh(
     )
 
 
-def links_within(*surface: Any) -> tuple[Links, Links, Links]:
+def links_within(triangles, normals, areas, part) -> tuple[Links, Links, Links]:
     """Return the Links to the other side of parts, across their cavities, and across gaps."""
-    return thickness_links(*surface), *links_outside(*surface)
+    surface = normals, areas, part, outward_sign(triangles, part)[part]
+    return thickness_links(triangles.V, *surface), *links_outside(triangles, *surface)

@@ -10,6 +10,8 @@ SWINGING_WINDOW = 20
 """the same where parts may swing..."""
 SWINGING_SHARE = 1e-3
 """...and the limit there, whatever still moves"""
+SWINGING_FALL = 0.01
+"""of the energy at first: the least total fall there, as in chain mail, whose rings only drift"""
 
 
 class StopRule:
@@ -68,4 +70,5 @@ class StopRule:
             return False
         least = min(self._energies)
         fall = (min(before) - least) / SWINGING_WINDOW
-        return fall <= SWINGING_SHARE * self._tolerance * (self._energies[0] - least)
+        whole = max(self._energies[0] - least, SWINGING_FALL * self._energies[0])
+        return fall <= SWINGING_SHARE * self._tolerance * whole

@@ -58,15 +58,19 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness):
     count, region = graph.regions(is_same)
     area = np.bincount(region, graph.areas, count)
     facing, has_one = _facing(directions, graph.areas, region, area)
-    has_one &= np.bincount(region, minlength=count) >= FEWEST
-    has_one[region[side < 0]] = False
+    is_whole = np.bincount(region, minlength=count) >= FEWEST
+    is_whole[region[side < 0]] = False
+    has_one &= is_whole
     facing[~has_one] = 0.0  # they only follow their edges
     centers = U[F].mean(axis=1) - heights[F].mean(axis=1)[:, None] * facing[region]
     tilted = np.bincount(region, graph.areas * is_tilted, count) / np.maximum(area, _LEAST)
     normals, offsets, distance = _planes(centers, graph.areas, region, facing)
     thick = np.bincount(region, graph.areas * thickness, count) / np.maximum(area, _LEAST)
     shares = np.where(has_one, _nearness(distance, area, tilted, thick), 0.0)
-    of, at = np.divmod(np.unique(np.repeat(region, 3) * n + F.ravel()), n)
+    kept = np.flatnonzero(is_whole[region])
+    of, at = np.divmod(
+        np.unique(np.repeat(region[kept].astype(np.int64), 3) * n + F[kept].ravel()), n
+    )
     away = offsets[of] - _dots(normals[of], U[at] - heights[at, None] * facing[of])
     moves, flat = _to_planes(n, at, normals[of], shares[of], away)
     is_edge = np.bincount(at, minlength=n)[at] > 1

@@ -17,7 +17,7 @@ import numpy as np
 from ..mesh.components import components
 from .links import links_between
 from .nearest import Nearest
-from .thickness import FACING, STRENGTH, facing, facing_pairs, outward_sign
+from .thickness import FACING, STRENGTH, facing, facing_pairs
 
 ENCLOSED = 0.7
 """least share of directions in which the part is seen"""
@@ -43,14 +43,13 @@ _CELLS = 3  # along the edges of a cube, whose cells are the directions
 _AT_ONCE = 100
 
 
-def links_outside(triangles, normals, areas, part):
+def links_outside(triangles, normals, areas, part, outward):
     """Return links of solidity 1 across cavities, and others across gaps.
 
     `triangles`: Triangles. `normals`: (n,3), unit normals, or zero. `areas`: (n,). `part`: (n,)
-    int, connected part of each vertex.
+    int, connected part of each vertex. `outward`: (n,), its `outward_sign`.
     """
-    V, outward = triangles.V, outward_sign(triangles, part)[part]
-    is_open = outward == 0.0
+    V, is_open = triangles.V, outward == 0.0
     sides = [np.where(is_open, 1.0, -outward), np.where(is_open, -1.0, 0.0)]
     is_tube = is_open & (_openings(triangles.edges, part)[part] > 1)
     cavities, gaps = [], []

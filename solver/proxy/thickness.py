@@ -47,14 +47,13 @@ _INEXACTNESS = 0.1  # of the nearest vertex: in the middle of a ball, all are eq
 _SETTLED = 0.99  # a ball that shrinks by less has come to its end
 
 
-def thickness_links(triangles, normals, areas, part):
+def thickness_links(V, normals, areas, part, outward):
     """Return links of solidity 1 to the opposite side.
 
-    `triangles`: Triangles. `normals`: (n,3), unit normals, or zero. `areas`: (n,). `part`: (n,)
-    int, connected part of each vertex.
+    `V`: (n,3), rest positions in the unit box. `normals`: (n,3), unit normals, or zero. `areas`:
+    (n,). `part`: (n,) int, connected part of each vertex. `outward`: (n,), its `outward_sign`.
     """
-    outward = outward_sign(triangles, part)[part]
-    return links_between(*facing_pairs(triangles.V, outward[:, None] * normals, areas, part))
+    return links_between(*facing_pairs(V, outward[:, None] * normals, areas, part))
 
 
 def facing_pairs(V, normals, areas, part, count=SAMPLES, most=MOST_POINTS, least=FACING):

@@ -67,3 +67,11 @@ def test_parts_that_may_swing_are_waited_for_while_the_energy_falls_or_rises():
     assert iterations(StopRule(1e-3, may_swing=True), steady) is None
     rising = ((10.0 - (k % 15) - 1e-2 * k, 1.0) for k in range(900))
     assert iterations(StopRule(1e-3, may_swing=True), rising) is None
+
+
+def test_parts_that_drift_are_not_waited_for_where_there_is_nothing_to_gain():
+    """As the rings of chain mail: all of the fall is less than a millionth of the energy."""
+    drifting = ((1.0 - 1e-10 * k, 1.0) for k in range(5000))
+    assert iterations(StopRule(1e-3, may_swing=True), drifting) == pytest.approx(21, abs=5)
+    small_part = ((1.0 + 1e-3 * 0.9**k, 0.95**k) for k in range(5000))
+    assert iterations(StopRule(1e-3, may_swing=True), small_part) > 60

@@ -130,3 +130,15 @@ def test_balls_that_are_stuck_together_become_cubes_of_planes():
     assert share_facing(result.positions, F, degrees=2.0) > 0.9 and result.crossings == 0
     knob, body = (result.positions[k * len(V) // 3 :][: len(V) // 3, 1] for k in (2, 0))
     assert knob.min() < body.min() - 0.08 and knob.max() > body.min() + 0.08
+
+
+def test_however_many_regions_there_are():
+    """The number of the region times that of the vertices is more than 32 bit hold."""
+    V, F, side = bulging((0.03, 0.03))
+    alone = flattened(V, F, side)[0]
+    others = np.arange(90_000).reshape(-1, 3)
+    places = np.tile([[5.0, 0.0, 0.0], [6.0, 0.0, 0.0], [5.0, 1.0, 0.0]], (len(others), 1))
+    F = np.concatenate([others, F + others.size])
+    side = np.concatenate([np.full(len(others), -1), side])
+    moves, _ = flattened(np.concatenate([places, V]), F, side)
+    np.testing.assert_allclose(moves[others.size :], alone, atol=1e-12)

@@ -15,10 +15,11 @@ from solver.mesh.cotangents import cotangents
 from solver.mesh.rest_measures import areas_and_normals
 from solver.mesh.spokes_and_rims import spokes_and_rims
 from solver.mesh.triangles import Triangles
+from solver.preparation import links_within
 from solver.proxy.closest_point import closest_points
 from solver.proxy.links import Links, links_between, links_to_triangles
 from solver.proxy.neighbors import neighbor_links
-from solver.proxy.thickness import outward_sign, thickness_links
+from solver.proxy.thickness import outward_sign
 from solver.proxy.through import links_through
 
 
@@ -110,7 +111,7 @@ def thickness_of(V, F):
     V = (V - V.min(axis=0)) / np.ptp(V, axis=0).max()
     areas, normals = areas_and_normals(V, F)
     _, part = components(F, len(V))
-    return thickness_links(Triangles(V, F), normals, areas, part), V
+    return links_within(Triangles(V, F), normals, areas, part)[0], V
 
 
 @pytest.mark.parametrize("name", ["sheet", "bowl", "mixed"])
