@@ -17,6 +17,7 @@ from .borders import straightening
 from .carrying import away_from, carried, together
 from .face_step import Target
 from .new_crossings import NewCrossings
+from .open_rims import open_rims
 from .planes import flattening
 from .rims import FREE, rims_and_flats
 from .sides import CLEAR, NO_SIDE, STEADY, sides_of
@@ -130,7 +131,9 @@ class Hardening:
         of_sides = self.side, self.target.directions, self.target.heights
         counts = np.isfinite(rest.thickness) & ~rest.is_flat  # a roof of flat sides keeps its ridge
         thickness = np.where(counts, rest.thickness, 0.0)[rest.F].mean(axis=1)
-        moves, flat = flattening(U, rest.F, base.graph, *of_sides, base.is_tilted, thickness)
+        rims = open_rims(rest.V, base.graph, self.rotations)
+        of_shape = base.is_tilted, thickness, rims
+        moves, flat = flattening(U, rest.F, base.graph, *of_sides, *of_shape)
         moves *= smoothstep(self.asked, *FLAT)[:, None]
         nothing = np.zeros_like(moves)
         round_ = replace(self, flat=np.zeros_like(flat), moves=nothing, along=nothing)

@@ -22,6 +22,8 @@ tilt the second: what is a face is not to be bent,..."""
 OF_THICK, SHALLOW = 3.0, (0.06, 0.075)
 """...and times so much where, beside that, the distance is less than the first of the thickness,
 but not beyond the second: a cushion becomes flat, and what is slender keeps its bends"""
+RIMS = 0.1, 0.15
+"""distance from the plane of an open rim, relative to its radius: as `NEAR`"""
 UPRIGHT = 0.01, 0.02
 """slope to the direction of the side: a plane with less than the first has none, and one with more
 than the second keeps it"""
@@ -34,7 +36,7 @@ _FAR = 10.0  # between regions, so that none is nearest to those of another
 _LEAST = 1e-12
 
 
-def flattening(U, F, graph, side, directions, heights, is_tilted, thickness):
+def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rims=None):
     """Return how far vertices (n,3) have to move, and how far they belong to planes (n,), 0 to 1.
 
     Parameters
@@ -53,6 +55,7 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness):
         Triangles that details tilt.
     thickness : (m,) array
         Of the shape at the triangles, zero where there is none or none that counts.
+    rims : as of `open_rims`, optional
     """
     n, is_same = len(U), (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
     count, region = graph.regions(is_same)
@@ -72,15 +75,31 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness):
         np.unique(np.repeat(region[kept].astype(np.int64), 3) * n + F[kept].ravel()), n
     )
     away = offsets[of] - _dots(normals[of], U[at] - heights[at, None] * facing[of])
-    moves, flat = _to_planes(n, at, normals[of], shares[of], away)
+    normals, shares = normals[of], shares[of]
+    if rims is not None and len(rims[0]):
+        of_rims = _of_rims(U, *rims)
+        parts = (of, at, normals, shares, away), (count + rims[1], rims[0], *of_rims)
+        of, at, normals, shares, away = (np.concatenate(each) for each in zip(*parts, strict=True))
+    moves, flat = _to_planes(n, at, normals, shares, away)
     is_edge = np.bincount(at, minlength=n)[at] > 1
     if is_edge.any() and not is_edge.all():
         one, other = region[graph.one[~is_same]], region[graph.other[~is_same]]
         around = sum(np.bincount(x, graph.length[~is_same], count) for x in (one, other))
-        reach = area / np.maximum(around, _LEAST)
+        reach = np.append(area / np.maximum(around, _LEAST), 0.0)[np.minimum(of, count)]
         places = np.concatenate([U[at], _FAR * of[:, None]], axis=1)
-        _take_along(moves, places, at, is_edge, normals[of], reach[of])
+        _take_along(moves, places, at, is_edge, normals, reach)
     return moves, flat
+
+
+def _of_rims(U, at, rim, facing):
+    """Return normals (k,3), shares (k,) and distances (k,) of the planes of rims, see `RIMS`."""
+    count = len(facing)
+    normals, offsets, distance = _planes(U[at], np.ones(len(at)), rim, facing)
+    size = np.bincount(rim, minlength=count)
+    middle = np.stack([np.bincount(rim, x, count) / size for x in U[at].T], axis=1)
+    radius = np.sqrt(np.bincount(rim, ((U[at] - middle[rim]) ** 2).sum(axis=1), count) / size)
+    shares = smoothstep(distance / np.maximum(radius, _LEAST), *RIMS[::-1])
+    return normals[rim], shares[rim], offsets[rim] - _dots(normals[rim], U[at])
 
 
 def _facing(directions, areas, region, area):

@@ -142,3 +142,19 @@ def test_however_many_regions_there_are():
     side = np.concatenate([np.full(len(others), -1), side])
     moves, _ = flattened(np.concatenate([places, V]), F, side)
     np.testing.assert_allclose(moves[others.size :], alone, atol=1e-12)
+
+
+def test_a_flat_open_rim_stays_flat():
+    """A lampshade's, which rises at the corners as it becomes square."""
+    angle, height = np.meshgrid(np.arange(48) * np.pi / 24, np.linspace(0.0, 1.2, 12))
+    radius = 1.0 - 0.3 * height
+    V = np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=-1).reshape(-1, 3)
+    row, column = np.divmod(np.arange(11 * 48), 48)
+    right = 48 * row + (column + 1) % 48
+    F = np.stack([48 * row + column, right, right + 48, 48 * (row + 1) + column], axis=1)
+    made = Run(Stylization(Setup(rest_mesh(V, F)), Style(0.4, crispness=0.9)))
+    made.complete()
+    U = made.result().positions
+    for rim in (U[:48], U[-48:]):
+        assert np.ptp(rim[:, 2]) < 0.004
+        assert np.linalg.norm(rim[:, :2], axis=1).max() > 1.3 * np.abs(rim[:, :2]).max(), "square"
