@@ -184,6 +184,17 @@ def test_undo_and_redo_are_seen(cache, body):
     np.testing.assert_array_equal(body(), after)
 
 
+def test_what_was_kept_first_is_forgotten_first(cache):
+    kept = cache.Kept()
+    for uid in (1, 2, 1, 3):
+        kept.keep(uid, f"of {uid}")
+    assert kept.uids == [1, 3]
+    made = cache.KeptFrom()
+    for uid in range(20):
+        made.keep(uid, f"of {uid}")
+    assert made.uids == [*range(4, 20)]
+
+
 def test_an_object_in_no_scene_is_read_each_time(cache, counted, body):
     gem = prepare()
     bpy.context.collection.objects.unlink(gem)
