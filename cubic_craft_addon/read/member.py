@@ -21,7 +21,7 @@ from ...solver.pieces.piece import Piece
 from ...solver.pieces.placement import Placement
 from ...solver.pieces.reach import grown, rest_weights
 from ...solver.pieces.shape import Shape
-from ...solver.symmetry import LEAST_MATCHING
+from ...solver.surface.symmetry import LEAST_MATCHING
 from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
 from ..regions.region import shares_of

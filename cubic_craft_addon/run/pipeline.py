@@ -109,7 +109,7 @@ def go_on(problem: MemberProblem, run: solver.Run) -> solver.Run:
     `problem`: from `Problem.posed`, of what the other run was made for. Raises CubicCraftError: as
     `start`, without the name.
     """
-    from ...solver.restyled_run import RestyledRun, has_sides
+    from ...solver.iteration.restyled_run import RestyledRun, has_sides
 
     settings = settings_of_all(problem)
     stylization = run.soft.moved(problem.setup, problem.pose_of_handles)
@@ -126,7 +126,7 @@ def restyled(
     `keeps_sides`: as of `RestyledRun`. None if that has no sides yet, the problem is to have none,
     or other vertices are solved. Raises CubicCraftError: as `start`, without the name.
     """
-    from ...solver.restyled_run import RestyledRun, has_sides
+    from ...solver.iteration.restyled_run import RestyledRun, has_sides
 
     rest, known = problem.setup.rest, run.soft.rest
     is_like = rest.V is known.V and rest.topology.F is known.topology.F
