@@ -5,7 +5,7 @@ from . import hidden_source, job, live, presets
 from .angles import overlay as angles_overlay
 from .animation import properties as animation_properties
 from .command_line import blender_command
-from .environment import ahead, object_cache
+from .environment import ahead, kept
 from .form import overlay as form_overlay
 from .form import pictures as form_pictures
 from .handles import gizmos as handle_gizmos
@@ -14,7 +14,6 @@ from .handles import panel as handles_panel
 from .handles import properties as handles_properties
 from .regions import panel as regions_panel
 from .regions import region
-from .screen import kept
 from .send import properties as send_properties
 from .settings import group_renames, properties
 from .ui import header, menus, panel, preferences
@@ -42,7 +41,6 @@ _modules = (
     menus,
     header,
     group_renames,
-    object_cache,
     ahead,
     blender_command,
 )

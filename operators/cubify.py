@@ -30,14 +30,14 @@ from ..cubic_craft_addon.settings.overrides import (
     pointer_name,
     values_of,
 )
-from ..cubic_craft_addon.settings.properties import RunProperties, StartProperty
+from ..cubic_craft_addon.settings.properties import START, RunProperties
 from ..cubic_craft_addon.ui.settings_rows import draw_advanced, draw_solver, draw_volume
 from ..solver import CubicCraftError
 from ._shared.selection import poll_sources, selected_meshes, selected_sources
 from ._shared.watched_operator import WatchedOperator
 
 
-class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.types.Operator):
+class CUBIC_CRAFT_OT_cubify(WatchedOperator, RunProperties, bpy.types.Operator):
     """Turn the selected meshes into cubic sculptures; each starts from its original shape."""
 
     bl_idname = "cubic_craft.cubify"
@@ -48,6 +48,7 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, StartProperty, RunProperties, bpy.t
     )
     bl_options = {"REGISTER", "UNDO"}
 
+    start: START
     frame: pointer_name("frame")
     form_object: pointer_name("form_object")
     capture_object: pointer_name("capture_object")

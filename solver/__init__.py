@@ -23,31 +23,37 @@ if TYPE_CHECKING:
     from .backends import engine_name as engine_name
     from .backends import problem_with_engine as problem_with_engine
     from .backends import set_cache_folder as set_cache_folder
-    from .energy import Energy as Energy
     from .errors import CubicCraftError as CubicCraftError
+    from .facets.flatten import Flattened as Flattened
+    from .facets.flatten import flatten_facets as flatten_facets
     from .facets.low_poly import LowPoly as LowPoly
     from .facets.low_poly import low_poly as low_poly
-    from .flatten import Flattened as Flattened
-    from .flatten import flatten_facets as flatten_facets
     from .frames.sequence import FrameSequence as FrameSequence
     from .frames.sequence import SequenceState as SequenceState
     from .frames.steadiness import MOST_JUMPS as MOST_JUMPS
     from .frames.steadiness import Frames as Frames
     from .frames.steadiness import frame_of as frame_of
     from .frames.steadiness import least_width as least_width
+    from .iteration.energy import Energy as Energy
+    from .iteration.loading import loading_steps as loading_steps
+    from .iteration.options import SolverOptions as SolverOptions
+    from .iteration.pose import Pose as Pose
+    from .iteration.progress import Progress as Progress
+    from .iteration.result import Result as Result
+    from .iteration.runner import Run as Run
+    from .iteration.setup import Setup as Setup
+    from .iteration.stop_rule import StopRule as StopRule
+    from .iteration.stylization import Stylization as Stylization
     from .limbs import KnownLimbs as KnownLimbs
     from .limbs import joined_limbs as joined_limbs
     from .limbs import limbs_of_bones as limbs_of_bones
     from .limbs import placed_limbs as placed_limbs
-    from .loading import loading_steps as loading_steps
     from .mesh.ball import ball as ball
     from .mesh.edge_distances import edge_distances as edge_distances
     from .mesh.rest_measures import triangle_areas_and_normals as triangle_areas_and_normals
     from .meshes import stylize_mesh as stylize_mesh
-    from .normal_capture import NormalCapture as NormalCapture
     from .one_call import run as run
     from .one_call import stylize as stylize
-    from .options import SolverOptions as SolverOptions
     from .orientation.auto_orientation import auto_orient as auto_orient
     from .pieces.from_mesh import piece_of as piece_of
     from .pieces.handle_pose import HandlePose as HandlePose
@@ -56,65 +62,59 @@ if TYPE_CHECKING:
     from .pieces.problem import join_pieces as join_pieces
     from .pieces.reflection import Reflection as Reflection
     from .pieces.reflection import flip as flip
-    from .pose import Pose as Pose
-    from .preparation import rest_mesh as rest_mesh
-    from .progress import Progress as Progress
     from .proxy.options import PAPER as PAPER
     from .proxy.options import ProxyOptions as ProxyOptions
-    from .rest import RestMesh as RestMesh
-    from .result import Result as Result
     from .rotation_fit import svd_rotations as svd_rotations
-    from .runner import Run as Run
-    from .setup import Setup as Setup
-    from .stop_rule import StopRule as StopRule
     from .styles.cube import nearest_to_identity as nearest_to_identity
+    from .styles.normal_capture import NormalCapture as NormalCapture
     from .styles.style import Style as Style
-    from .stylization import Stylization as Stylization
-    from .symmetry import MATCHING as MATCHING
-    from .symmetry import NO_PARTNER as NO_PARTNER
-    from .symmetry import Mirror as Mirror
-    from .symmetry import commuting as commuting
-    from .symmetry import partners as partners
+    from .surface.preparation import rest_mesh as rest_mesh
+    from .surface.rest import RestMesh as RestMesh
+    from .surface.symmetry import MATCHING as MATCHING
+    from .surface.symmetry import NO_PARTNER as NO_PARTNER
+    from .surface.symmetry import Mirror as Mirror
+    from .surface.symmetry import commuting as commuting
+    from .surface.symmetry import partners as partners
 
     __version__: str
 else:
     _NAMES = {
         "backends": "DEVICES engine_name problem_with_engine set_cache_folder",
-        "energy": "Energy",
         "errors": "CubicCraftError",
+        "facets.flatten": "Flattened flatten_facets",
         "facets.low_poly": "LowPoly low_poly",
-        "flatten": "Flattened flatten_facets",
         "frames.sequence": "FrameSequence SequenceState",
         "frames.steadiness": "MOST_JUMPS Frames frame_of least_width",
+        "iteration.energy": "Energy",
+        "iteration.loading": "loading_steps",
+        "iteration.options": "SolverOptions",
+        "iteration.pose": "Pose",
+        "iteration.progress": "Progress",
+        "iteration.result": "Result",
+        "iteration.runner": "Run",
+        "iteration.setup": "Setup",
+        "iteration.stop_rule": "StopRule",
+        "iteration.stylization": "Stylization",
         "limbs": "KnownLimbs joined_limbs limbs_of_bones placed_limbs",
-        "loading": "loading_steps",
         "mesh.ball": "ball",
         "mesh.edge_distances": "edge_distances",
         "mesh.rest_measures": "triangle_areas_and_normals",
         "meshes": "stylize_mesh",
-        "normal_capture": "NormalCapture",
         "one_call": "run stylize",
-        "options": "SolverOptions",
         "orientation.auto_orientation": "auto_orient",
         "pieces.from_mesh": "piece_of",
         "pieces.handle_pose": "HandlePose",
         "pieces.piece": "Piece",
         "pieces.problem": "Problem join_pieces",
         "pieces.reflection": "Reflection flip",
-        "pose": "Pose",
-        "preparation": "rest_mesh",
-        "progress": "Progress",
         "proxy.options": "PAPER ProxyOptions",
-        "rest": "RestMesh",
-        "result": "Result",
         "rotation_fit": "svd_rotations",
-        "runner": "Run",
-        "setup": "Setup",
-        "stop_rule": "StopRule",
         "styles.cube": "nearest_to_identity",
+        "styles.normal_capture": "NormalCapture",
         "styles.style": "Style",
-        "stylization": "Stylization",
-        "symmetry": "MATCHING NO_PARTNER Mirror commuting partners",
+        "surface.preparation": "rest_mesh",
+        "surface.rest": "RestMesh",
+        "surface.symmetry": "MATCHING NO_PARTNER Mirror commuting partners",
     }
     _MODULES = {name: f".{room}" for room, names in _NAMES.items() for name in names.split()}
 

@@ -9,21 +9,21 @@ from numpy.typing import ArrayLike
 
 from .aliases import Device, Faces, Precision
 from .inputs import switch
+from .iteration.options import SolverOptions
+from .iteration.pose import Pose
+from .iteration.progress import progress_bar
+from .iteration.result import Result
+from .iteration.runner import OnIteration, Run
+from .iteration.setup import Setup
+from .iteration.stylization import Stylization
 from .limbs import KnownLimbs
 from .mesh.mesh_checks import check_mesh, check_winding
-from .normal_capture import NormalCapture
-from .options import SolverOptions
-from .pose import Pose
-from .preparation import rest_mesh
-from .progress import progress_bar
 from .proxy import PAPER, ProxyOptions
-from .result import Result
-from .runner import OnIteration, Run
-from .setup import Setup
 from .styles.admm import AdmmOptions
+from .styles.normal_capture import NormalCapture
 from .styles.polytope import Polytope
 from .styles.style import CRISPNESS, Style
-from .stylization import Stylization
+from .surface.preparation import rest_mesh
 
 _log = logging.getLogger(__name__)
 

@@ -6,6 +6,7 @@ The switch is stored on the window manager, as that of the form is.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import bpy
@@ -16,10 +17,10 @@ from mathutils import Matrix
 
 from ...solver import CubicCraftError
 from .. import live
+from ..environment.kept import Kept
 from ..environment.requirements import check_requirements
 from ..handles.owner import panel_object
 from ..read.object_frame import placement_alone
-from ..screen.kept import Kept
 from ..screen.redraw import redraw_views
 from . import legend
 from .measured import Angles, remaining_angles
@@ -40,11 +41,8 @@ def angles_now(obj: bpy.types.Object) -> Angles:
     check_requirements()
     settings = live.settings_now(obj)
     placement = placement_alone(obj, settings)
-    known = _known.get(obj.session_uid, placement.key)
-    if known is not None:
-        return known
-    angles = remaining_angles(obj, placement, settings)
-    return _known.keep(obj.session_uid, angles, placement.key)
+    measure = partial(remaining_angles, obj, placement, settings)
+    return _known.made(obj.session_uid, measure, placement.key)
 
 
 _VERTEX_SOURCE = """

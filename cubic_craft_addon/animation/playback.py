@@ -51,9 +51,9 @@ def shown(
     view_layer = bpy.context.view_layer
     selected, active = list(bpy.context.selected_objects), view_layer.objects.active
     try:
-        mesh_bridge.move_seen(new, read_point_cache(cache)[0])
+        mesh_bridge.move_vertices(new, read_point_cache(cache)[0])
         if baked is None:
-            mesh_bridge.show_seen(new, source)
+            mesh_bridge.show_beside(new, source)
             setattr(new, SOURCE, source)
             yield new
         else:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import bpy
 import numpy as np
@@ -16,13 +16,14 @@ from ...solver.styles.form_names import OF_OBJECT
 from ...solver.styles.hulls import simple_hull
 from ...solver.styles.polytope import Polytope, from_directions
 from .. import mesh_bridge
-from ..environment.object_cache import kept, once
+from ..environment.kept import KeptFrom, once
 from ..environment.requirements import check_requirements
 from .direction_text import read_directions
 from .settings import FormSettings, check_directions, check_form_object
 
 MOST_DIRECTIONS = 64
 """of a form from another object, or from selected faces"""
+_made: dict[str, KeptFrom[Polytope]] = {kind: KeptFrom() for kind in OF_OBJECT}
 
 
 def form_of(settings: FormSettings) -> Polytope | None:
@@ -63,8 +64,8 @@ def _of_object(settings):
     check_form_object(settings.form, obj)
     bpy.context.evaluated_depsgraph_get()  # or the matrix would be that before a change
     linear = np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
-    what = (settings.form, linear.tobytes())
-    return kept(obj, what, lambda: _made_of(obj, settings.form, linear))
+    make = partial(_made_of, obj, settings.form, linear)
+    return _made[settings.form].of(obj, make, linear.tobytes())
 
 
 def _made_of(obj, form, linear):

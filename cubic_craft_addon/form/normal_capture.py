@@ -4,6 +4,7 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import hashlib
+from functools import partial
 from typing import Any
 
 import bpy
@@ -13,13 +14,16 @@ from ... import solver
 from ...solver import CubicCraftError
 from ...solver.mesh.rest_measures import areas_and_normals
 from .. import mesh_bridge
-from ..environment.object_cache import kept, once
+from ..environment.kept import KeptFrom, once
 from ..environment.requirements import check_requirements
 from .settings import FormSettings
 
 STRENGTH = 4.0
 """of the solver, for a strength of 1: with a cube for a ball, the same strength and cubeness deform
 a monkey equally much, by the first term of the energy"""
+
+_captures: KeptFrom[solver.NormalCapture] = KeptFrom()
+_digests: KeptFrom[str] = KeptFrom()
 
 
 def has_capture(settings: FormSettings) -> bool:
@@ -42,8 +46,8 @@ def capture_of(obj: bpy.types.Object, settings: FormSettings) -> solver.NormalCa
     check_requirements()
     bpy.context.evaluated_depsgraph_get()  # or the matrix would be that before a change
     linear = np.array(ball.matrix_world.to_3x3(), dtype=np.float64)
-    what = ("capture", _has_original(ball), linear.tobytes())
-    return kept(ball, what, lambda: _made_of(ball, linear))
+    make = partial(_made_of, ball, linear)
+    return _captures.of(ball, make, (_has_original(ball), linear.tobytes()))
 
 
 def note_of(settings: FormSettings) -> Any:
@@ -52,7 +56,7 @@ def note_of(settings: FormSettings) -> Any:
     if ball is None or not has_capture(settings):
         return None
     try:
-        digest = kept(ball, ("note", _has_original(ball)), lambda: _digest(ball))
+        digest = _digests.of(ball, partial(_digest, ball), _has_original(ball))
     except CubicCraftError:
         return None
     turn = np.array(ball.matrix_world.to_3x3(), dtype=np.float64)

@@ -39,7 +39,7 @@ def handle_of(obj: bpy.types.Object, handles: Sequence[Handle]) -> np.ndarray:
     count = len(mesh_bridge.mesh_of(obj).vertices)
     result = np.full(count, -1)
     groups = [handle.group for handle in handles if handle.vertices is None]
-    weights = mesh_bridge.weights_of_groups(obj, groups) if groups else {}
+    weights = mesh_bridge.weights_of_groups(obj, groups)
     for number, handle in reversed(list(enumerate(handles))):  # so that the first one counts
         result[_holds(obj, handle, weights, count)] = number
     return result

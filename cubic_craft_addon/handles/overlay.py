@@ -16,8 +16,8 @@ from mathutils import Vector
 
 from ...solver import CubicCraftError
 from .. import live, mesh_bridge
+from ..environment.kept import FoundLater
 from ..object_properties import object_properties
-from ..screen.kept import FoundLater
 from ..screen.redraw import redraw_views
 from . import handle_of
 from .gizmos.places import middle_of

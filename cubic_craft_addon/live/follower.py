@@ -168,11 +168,10 @@ class Follower:
             mesh = mesh_bridge.mesh_of(new)
         else:
             mesh_bridge.flush(source)
-            own = mesh_bridge.mesh_of(source)
-            mesh, new = own.copy(), source.copy()
-            assert mesh is not None and new is not None
-            new.data = mesh
-            mesh.name, new.name = f"{own.name} Cubic", f"{source.name} Cubic"
+            new = mesh_bridge.copied(source)
+            mesh = mesh_bridge.mesh_of(new)
+            mesh.name = f"{mesh_bridge.mesh_of(source).name} Cubic"
+            new.name = f"{source.name} Cubic"
         new[_MARK] = str(new.session_uid)
         mesh_bridge.link_beside(source, new)
         self.uid, self.mesh_uid = new.session_uid, mesh.session_uid

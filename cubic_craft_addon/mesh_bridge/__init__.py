@@ -9,7 +9,7 @@ which Restore and Apply remove without a trace (a first original is removed by A
 First*).
 """
 
-from .access.any_mode import flush, glance, in_no_mode, remove_copy
+from .access.any_mode import copied, flush, glance, in_no_mode, remove_copy
 from .access.arrays import corner_vertices, read_position, read_values
 from .access.attributes import carried_attributes
 from .access.checks import (
@@ -60,10 +60,10 @@ from .result.new_object import (
     as_seen,
     link_beside,
     make_seen,
-    move_seen,
+    move_vertices,
     plain_copy,
     select_instead,
-    show_seen,
+    show_beside,
     write_new_object,
     write_seen,
 )

@@ -7,11 +7,12 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import bpy
+import numpy as np
 
 from ...solver import CubicCraftError
 from ...solver.mesh.mesh_checks import check_mesh
@@ -20,10 +21,10 @@ from ...solver.pieces.piece import Piece
 from ...solver.pieces.placement import Placement
 from ...solver.pieces.reach import grown, rest_weights
 from ...solver.pieces.shape import Shape
-from ...solver.symmetry import LEAST_MATCHING
+from ...solver.surface.symmetry import LEAST_MATCHING
 from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
-from ..regions.region import region_shares
+from ..regions.region import shares_of
 from ..settings.values import Settings
 from .bones import read_bones, read_posed_bones
 from .cages import read_cage
@@ -50,6 +51,8 @@ class Member(Piece):
     alone: Placement
     in_world: Placement | None
     """None if it cannot be solved with others"""
+    weights: Mapping[str, np.ndarray]
+    """(n,) of each vertex group that the map, the detail and the regions name"""
 
     @property
     def is_symmetric_by_itself(self) -> bool:
@@ -142,6 +145,7 @@ def read_member(
         known = None
     V = alone.place(shape.original)
     handle_of = _handle_of(obj, settings, V, shape.triangles, known)
+    weights = _weights(obj, settings, known)
     whole = _whole(obj.name, shape, reflections, settings)
     bones = _bones(obj, settings, whole, alone, shape, known, rigged)
     return Member(
@@ -156,9 +160,10 @@ def read_member(
         handles=settings.handles,
         handle_of=handle_of,
         rest_weights=_rest_weights(settings, V, shape.triangles, handle_of, known),
-        map_weights=_map_weights(obj, settings, known),
-        detail_weights=_detail_weights(obj, settings, known),
-        region_shares=_region_shares(obj, settings, known),
+        weights=weights,
+        map_weights=_map_weights(settings, weights),
+        detail_weights=weights.get(settings.detail_group, 1.0),
+        region_shares=shares_of(settings.regions, weights),
         bones=bones,
         seconds=time.perf_counter() - begin,
     )
@@ -199,29 +204,19 @@ def _groups(settings):
     return [handle.members for handle in settings.handles]
 
 
-def _map_weights(obj, settings, known):
+def _weights(obj, settings, known):
+    regions = (region.group for region in settings.regions)
+    names = [name for name in (settings.map_group, settings.detail_group, *regions) if name]
+    if known and known.weights.keys() >= set(names):
+        return known.weights
+    return mesh_bridge.weights_of_groups(obj, names)
+
+
+def _map_weights(settings, weights):
     if not settings.map_group:
         return 1.0
-    choice = (settings.map_group, settings.map_invert)
-    if known and choice == (known.settings.map_group, known.settings.map_invert):
-        return known.map_weights
-    weights = mesh_bridge.group_weights(obj, settings.map_group)
-    return 1.0 - weights if settings.map_invert else weights
-
-
-def _detail_weights(obj, settings, known):
-    if not settings.detail_group:
-        return 1.0
-    if known and settings.detail_group == known.settings.detail_group:
-        return known.detail_weights
-    return mesh_bridge.group_weights(obj, settings.detail_group)
-
-
-def _region_shares(obj, settings, known):
-    groups = [region.group for region in settings.regions]
-    if known and groups == [region.group for region in known.settings.regions]:
-        return known.region_shares
-    return region_shares(obj, settings.regions)
+    found = weights[settings.map_group]
+    return 1.0 - found if settings.map_invert else found
 
 
 def _bones(obj, settings, whole, alone, shape, known, rigged):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Regions: vertex groups with a form, an orientation and a cubeness of their own."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -77,10 +77,15 @@ def region_shares(obj: bpy.types.Object, regions: Sequence[Region]) -> np.ndarra
 
     Raises CubicCraftError: a vertex group does not exist.
     """
+    groups = [region.group for region in regions]
+    return shares_of(regions, mesh_bridge.weights_of_groups(obj, groups))
+
+
+def shares_of(regions: Sequence[Region], known: Mapping[str, np.ndarray]) -> np.ndarray | None:
+    """Return the same where the weights (n,) of the groups are known by their names."""
     if not regions:
         return None
-    weights = [mesh_bridge.group_weights(obj, region.group) for region in regions]
-    weights = np.stack(weights, axis=1)
+    weights = np.stack([known[region.group] for region in regions], axis=1)
     total = weights.sum(axis=1, keepdims=True)
     rest = np.maximum(1.0 - total, 0.0)
     return np.concatenate([rest, weights / np.maximum(total, 1.0)], axis=1)

@@ -109,7 +109,7 @@ def go_on(problem: MemberProblem, run: solver.Run) -> solver.Run:
     `problem`: from `Problem.posed`, of what the other run was made for. Raises CubicCraftError: as
     `start`, without the name.
     """
-    from ...solver.restyled_run import RestyledRun, has_sides
+    from ...solver.iteration.restyled_run import RestyledRun, has_sides
 
     settings = settings_of_all(problem)
     stylization = run.soft.moved(problem.setup, problem.pose_of_handles)
@@ -126,7 +126,7 @@ def restyled(
     `keeps_sides`: as of `RestyledRun`. None if that has no sides yet, the problem is to have none,
     or other vertices are solved. Raises CubicCraftError: as `start`, without the name.
     """
-    from ...solver.restyled_run import RestyledRun, has_sides
+    from ...solver.iteration.restyled_run import RestyledRun, has_sides
 
     rest, known = problem.setup.rest, run.soft.rest
     is_like = rest.V is known.V and rest.topology.F is known.topology.F
@@ -214,33 +214,25 @@ def write(
     obj: bpy.types.Object,
     solution: Solution,
     result: str,
-    remember: Callable[[bpy.types.Object], None] = lambda target: None,
+    complete: Callable[[bpy.types.Object], None] = lambda target: None,
     run: dict[str, Any] | None = None,
-    finish: Callable[[bpy.types.Object], None] = lambda target: None,
 ) -> bpy.types.Object:
     """Write a Solution to the object's mesh, to a shape key of it, or to a new object.
 
-    `result`: {"MESH", "SHAPE_KEY", "NEW_OBJECT"}. `remember`: called with the object that gets the
-    cubic shape, before the step that cannot be undone: if it or anything later raises, all meshes
-    and objects are as they were before. The caller must restore the settings of an existing object
-    that it has changed. `run`: dict, optional, the note for the mesh, a `LastRun`. `finish`: as
-    `remember`, but called once the shape is written. Returns the object that now has it.
+    `result`: {"MESH", "SHAPE_KEY", "NEW_OBJECT"}. `complete`: called with the object that has got
+    the cubic shape, before the step that cannot be undone: if it or anything later raises, all
+    meshes and objects are as they were before. The caller must restore the settings of an existing
+    object that it has changed. `run`: dict, optional, the note for the mesh, a `LastRun`. Returns
+    the object that now has the shape.
     """
+    made = solution.positions, solution.rotations
     if result == "NEW_OBJECT":
-
-        def prepare(target):
-            remember(target)
-            finish(target)
-
-        return mesh_bridge.write_new_object(
-            obj, solution.positions, solution.rotations, prepare, run, solution.start
-        )
-    remember(obj)
-    made = solution.positions, solution.rotations, run, solution.start, partial(finish, obj)
+        return mesh_bridge.write_new_object(obj, *made, complete, run, solution.start)
+    noted = run, solution.start, partial(complete, obj)
     if result == "SHAPE_KEY":
-        mesh_bridge.write_shape_key(obj, *made)
+        mesh_bridge.write_shape_key(obj, *made, *noted)
     else:
-        mesh_bridge.write_mesh(mesh_bridge.mesh_of(obj), *made)
+        mesh_bridge.write_mesh(mesh_bridge.mesh_of(obj), *made, *noted)
     return obj
 
 

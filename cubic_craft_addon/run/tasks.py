@@ -256,7 +256,7 @@ def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
     assert task.solution is not None
     source = task.source if task.is_seen else task.obj
 
-    def remember(target):
+    def complete(target):
         keep_poses(target, overrides.poses.get(task.uid, {}))
         # A shape key poses nothing: its basis is still the original.
         is_posed = task.settings.result != "SHAPE_KEY" and overrides.uses_own_handles(task.obj)
@@ -265,27 +265,19 @@ def write_task(overrides: SettingsOverrides, task: Task, run: LastRun) -> None:
         # What was followed is beside the new object, and worked on.
         if source is not None and target != source and not task.is_followed:
             hidden_source.hide(source, target)
-
-    def shade(target):
         shown = {**run.settings, "sharp_edges": task.settings.sharp_edges}
         mesh_bridge.shade_shape(target, shown)
-
-    def complete(target):
-        remember(target)
-        shade(target)
 
     solution, note = task.solution, asdict(run)
     with hidden_source.source_kept(source):
         if task.is_seen or task.is_followed_as_seen:
             new = task.obj if task.is_seen else mesh_bridge.make_seen(task.obj)
-            task.written = mesh_bridge.write_seen(
-                new, source, solution.positions, solution.rotations, complete, note
-            )
+            made = solution.positions, solution.rotations
+            task.written = mesh_bridge.write_seen(new, source, *made, complete, note)
         else:
             with settings_kept([task.mesh]):
-                task.written = pipeline.write(
-                    task.obj, solution, task.settings.result, remember, note, shade
-                )
+                result = task.settings.result
+                task.written = pipeline.write(task.obj, solution, result, complete, note)
 
 
 def hair_left_behind(obj: bpy.types.Object, result: str) -> list[str]:

@@ -41,14 +41,10 @@ def _status(properties):
     return run.status if run else ""
 
 
-class StartProperty:
-    """Mixin of the property that the operator and the object share, but not Live and presets.
-
-    Each object keeps its own for one run: on a mesh that is edited again, a click must neither
-    discard nor replace anything without being asked to.
-    """
-
-    start: declared(SETTINGS["start"], options={"SKIP_SAVE"})
+# The operator and the object have it, but not Live and presets. Each object keeps its own for one
+# run: on a mesh that is edited again, a click must neither discard nor replace anything without
+# being asked to.
+START = declared(SETTINGS["start"], options={"SKIP_SAVE"})
 
 
 class RunProperties:
@@ -69,9 +65,10 @@ def _may_be_capture(properties, obj):
     return obj.type in KINDS and obj != properties.id_data
 
 
-class CubicCraftProperties(StartProperty, RunProperties, bpy.types.PropertyGroup):
+class CubicCraftProperties(RunProperties, bpy.types.PropertyGroup):
     """The settings of an object, saved with it."""
 
+    start: START
     preset: preset_property()
     frame: PointerProperty(
         name="Frame", description="Object whose axes the form uses", type=bpy.types.Object

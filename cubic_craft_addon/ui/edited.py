@@ -6,16 +6,17 @@ mesh has changed, or may have changed.
 """
 
 from collections.abc import Iterable
+from functools import partial
 from typing import Any
 
 import bpy
 
 from ...solver import CubicCraftError
 from .. import live, mesh_bridge
+from ..environment.kept import Kept
 from ..environment.modes import MODES
 from ..object_properties import object_properties
 from ..run.posed_anew import is_posed_anew
-from ..screen.kept import Kept
 from ..screen.text_fit import draw_wrapped
 
 _REPLACED = "This shape replaces the original. Restore First brings that back until Apply"
@@ -88,10 +89,7 @@ def is_lost(mesh: bpy.types.Mesh) -> bool:
 def _found_out(mesh, kept, find_out):
     if not mesh_bridge.has_traces(mesh):
         return False
-    known = kept.get(mesh.session_uid)
-    if known is not None:
-        return known
     try:
-        return kept.keep(mesh.session_uid, find_out(mesh))
+        return kept.made(mesh.session_uid, partial(find_out, mesh))
     except CubicCraftError:
         return False

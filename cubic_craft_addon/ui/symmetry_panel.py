@@ -8,7 +8,7 @@ import numpy as np
 from ...solver import CubicCraftError
 from ...solver.pieces.shape import LEAST_MATCHING as SYMMETRIC
 from ...solver.pieces.whole import Whole
-from ...solver.symmetry import LEAST_MATCHING
+from ...solver.surface.symmetry import LEAST_MATCHING
 from .. import mesh_bridge
 from ..read.reflections import modifier_reflections
 

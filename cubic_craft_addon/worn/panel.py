@@ -11,8 +11,8 @@ from typing import Any
 import bpy
 
 from .. import job, live
+from ..environment.kept import FoundLater
 from ..object_properties import object_properties
-from ..screen.kept import FoundLater
 from ..screen.redraw import redraw_panels
 from ..screen.text_fit import draw_wrapped
 from .found import worn_by

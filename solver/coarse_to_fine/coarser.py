@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 
 from ..aliases import FloatArray
-from ..details import unit
-from ..pose import Pose
-from ..setup import Setup
+from ..iteration.pose import Pose
+from ..iteration.setup import Setup
 from ..styles.solved_style import SolvedStyle, solved_style
 from ..styles.style import Style
+from ..surface.details import unit
 
 
 def coarser_style(style: SolvedStyle, setup: Setup) -> SolvedStyle:

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from ..details import unit
+from ..surface.details import unit
 
 FAR = 0.5
 """what it costs a triangle to be off a plane by the tolerance, in units of 1 - cosine"""

@@ -18,7 +18,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
-from ..details import unit
+from ..surface.details import unit
 
 STAY = 0.15
 """S: corners rather go along the surface than planes leave it"""

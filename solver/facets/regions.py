@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..aliases import BoolArray, FloatArray, IntArray
-from ..details import unit
 from ..hardening.sides import CURVED, NEVER, border_shares, settled_labels, straightened
+from ..surface.details import unit
 from .fitting import centroids, exchanged, halves
 
 FEWEST = 6

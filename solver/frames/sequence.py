@@ -23,11 +23,11 @@ import numpy as np
 
 from ..aliases import FloatArray
 from ..hardening.hardening import is_hardened
-from ..rest import RestMesh
-from ..result import Result
+from ..iteration.result import Result
+from ..iteration.runner import Run
+from ..iteration.stylization import Stylization
 from ..rotation_fit import fit_rotations, orthonormalize
-from ..runner import Run
-from ..stylization import Stylization
+from ..surface.rest import RestMesh
 from ..values import described, is_same
 
 STEPS = 12

@@ -12,11 +12,11 @@ import numpy as np
 
 from ..algebra import columns, dot
 from ..aliases import FloatArray
-from ..details import at_vertices, unit
 from ..limbs.turns import smallest_turns
 from ..mesh.face_graph import FaceGraph
 from ..mesh.rest_measures import triangle_areas_and_normals
-from ..rest import RestMesh
+from ..surface.details import at_vertices, unit
+from ..surface.rest import RestMesh
 from .corners import Corners
 from .linked_faces import LinkedFaces
 

@@ -29,10 +29,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from ..aliases import BoolArray, FloatArray
-from ..details import at_vertices
 from ..global_step.motion import Motion
 from ..limbs.turns import smallest_turns
 from ..rotation_fit import fit_rotations, svd_rotations
+from ..surface.details import at_vertices
 from .base import Base
 
 FLATNESS = 0.9

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from ..aliases import FloatArray, IntArray
 from ..global_step.motion import Motion
-from ..setup import Setup
-from ..stylization import Stylization
+from ..iteration.setup import Setup
+from ..iteration.stylization import Stylization
 from .face_step import FaceStep
 from .hardening import Hardening, hardening_after, hardening_of
 

@@ -24,9 +24,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from ..algebra import smoothstep
-from ..details import unit
 from ..mesh.components import components
 from ..styles.forms import cube
+from ..surface.details import unit
 
 TEMPERATURE = 0.15
 WEIGHT = 1.35

@@ -17,14 +17,14 @@ import numpy as np
 
 from ..aliases import FloatArray
 from ..mesh.components import components
-from ..symmetry import MATCHING, NO_PARTNER, Mirror, partners
+from ..surface.symmetry import MATCHING, NO_PARTNER, Mirror, partners
 from .mirrored_styles import looks_alike
 from .piece import Piece
 from .reflection import flip
 from .shape import LEAST_MATCHING
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
-    from ..rest import RestMesh
+    from ..surface.rest import RestMesh
 
 _ALIKE = 1e-5  # of matrices
 _EVEN = 0.01  # of weights

@@ -15,7 +15,7 @@ from ..aliases import BoolArray, FloatArray, IntArray
 from ..mesh.components import components
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
-    from ..setup import Setup
+    from ..iteration.setup import Setup
 
 _STANDING = 0.01
 """share of the total height that a standing part may begin above the lowest point"""

@@ -11,7 +11,7 @@ from ..aliases import FloatArray
 from .piece import Piece, parts_of
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
-    from ..rest import RestMesh
+    from ..surface.rest import RestMesh
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..aliases import FloatArray
-from ..symmetry import Mirror
+from ..surface.symmetry import Mirror
 from .mirrored_styles import is_own_image
 from .piece import Piece
 from .reflection import flip

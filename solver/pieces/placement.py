@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ..aliases import FloatArray
 from ..rotation_fit import svd_rotations
 from ..styles.style import Style
-from ..symmetry import Mirror
+from ..surface.symmetry import Mirror
 
 
 @dataclass(frozen=True, eq=False)

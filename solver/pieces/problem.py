@@ -14,7 +14,7 @@ import numpy as np
 from ..aliases import BoolArray, FloatArray
 from ..errors import CubicCraftError
 from ..inputs import instance, instances
-from ..symmetry import NO_PARTNER, Mirror
+from ..surface.symmetry import NO_PARTNER, Mirror
 from ..values import described
 from .common_symmetry import common_planes, even_planes, suits
 from .floor import Floor
@@ -24,12 +24,12 @@ from .piece import P, Piece, parts_of
 from .subdivided import Subdivided
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
-    from ..options import SolverOptions
-    from ..pose import Pose
+    from ..iteration.options import SolverOptions
+    from ..iteration.pose import Pose
+    from ..iteration.setup import Setup
+    from ..iteration.stylization import Stylization
     from ..proxy.options import ProxyOptions
-    from ..setup import Setup
     from ..styles.style import Style
-    from ..stylization import Stylization
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -104,7 +104,7 @@ class Problem(Generic[P]):
     @property
     def pose_of_handles(self) -> Pose:
         """The pose without limbs, which take time: all that `Stylization.moved` looks at."""
-        from ..pose import Pose
+        from ..iteration.pose import Pose
 
         targets = np.concatenate([piece.targets for piece in self.pieces])
         return Pose(targets=targets, hold_matrices=[hold.matrix for hold in self.holds])
@@ -121,8 +121,8 @@ class Problem(Generic[P]):
         CubicCraftError
             A style is invalid, or the device is not available.
         """
-        from ..options import SolverOptions
-        from ..stylization import Stylization
+        from ..iteration.options import SolverOptions
+        from ..iteration.stylization import Stylization
 
         options = SolverOptions(keep_rotation=True) if options is None else options
         return Stylization(self.setup, self.style, self.pose, options)
@@ -220,7 +220,7 @@ def join_pieces(
     0.16
     0.00
     """
-    from ..setup import Setup
+    from ..iteration.setup import Setup
 
     begin = time.perf_counter()
     pieces = cast("Sequence[P]", instances(pieces, "pieces", Piece))
@@ -262,8 +262,8 @@ def _keep_floor(problem, earlier):
 
 def _rest(pieces, proxy, earlier):
     """Build the RestMesh, or reuse an earlier one of the same shapes with its links."""
-    from ..preparation import rest_mesh
     from ..proxy.options import ProxyOptions
+    from ..surface.preparation import rest_mesh
 
     proxy = ProxyOptions() if proxy is None else instance(proxy, "proxy", ProxyOptions)
     for other in earlier:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..aliases import BoolArray, FloatArray, IntArray
 from ..errors import CubicCraftError
-from ..symmetry import Mirror
+from ..surface.symmetry import Mirror
 
 
 @dataclass(frozen=True)

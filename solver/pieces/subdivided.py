@@ -9,7 +9,7 @@ import numpy as np
 
 from ..aliases import BoolArray, FloatArray, IntArray, RealArray
 from ..mesh.catmull_clark import Cage, catmull_clark
-from ..symmetry import NO_PARTNER, partners
+from ..surface.symmetry import NO_PARTNER, partners
 from .cage_fit import CageFit
 from .reflection import Reflection
 from .whole import Whole

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..aliases import BoolArray, FloatArray, IntArray, RealArray
-from ..symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
+from ..surface.symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
 from .reflection import Reflection, flip
 
 _LEAST_TOLERANCE = 1e-6  # of the largest extent: vertices closer to the plane than this lie in it

@@ -9,15 +9,15 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_matrix
 
 from ..aliases import BoolArray, FloatArray, IntArray
-from ..details import unit
 from ..errors import CubicCraftError
 from ..inputs import choices_per_vertex, real_numbers
+from ..iteration.setup import Setup
 from ..limbs import KnownLimbs, Limbs, no_limbs, turns
 from ..mesh.mesh_checks import per_vertex
-from ..normal_capture import NormalCapture, targets_for
-from ..rest import RestMesh
-from ..setup import Setup
+from ..surface.details import unit
+from ..surface.rest import RestMesh
 from ..values import Value
+from .normal_capture import NormalCapture, targets_for
 from .polytope import Polytope
 from .style import Style
 

@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 
 from ..errors import CubicCraftError
 from ..inputs import instances
-from ..normal_capture import NormalCapture
 from ..values import Value
 from .forms import cube, named
+from .normal_capture import NormalCapture
 from .polytope import Polytope
 
 CRISPNESS = 0.9

@@ -33,7 +33,7 @@ ALLOWED = {
     ("solver/optional_packages.py", "import_module"),  # packages named in our code
     ("solver/backends/gpu_arch.py", "subprocess"),  # a probe without input
     ("solver/backends/engine_lock.py", "ctypes"),  # keeps Taichi's program for ever
-    ("solver/memory.py", "ctypes"),  # asks Windows how much memory is free
+    ("solver/surface/memory.py", "ctypes"),  # asks Windows how much memory is free
     ("scripts/build_extension.py", "subprocess"),  # Blender's own tool
     ("scripts/benchmark_live.py", "subprocess"),
     ("scripts/package/fetch.py", "subprocess"),  # pip

@@ -27,6 +27,24 @@ def remove_copy(new: bpy.types.Object) -> None:
     bpy.data.meshes.remove(mesh)
 
 
+def copied(obj: bpy.types.Object) -> bpy.types.Object:
+    """Return a copy of a mesh object with a copy of its mesh, in no scene."""
+    mesh, new = mesh_of(obj).copy(), obj.copy()
+    assert mesh is not None and new is not None
+    new.data = mesh  # what is changed from here on, such as shape keys, is of the copy alone
+    return new
+
+
+@contextmanager
+def removed_after_errors(new: bpy.types.Object) -> Iterator[None]:
+    """Remove an object that was made here, and its mesh, if the block raises."""
+    try:
+        yield
+    except BaseException:
+        remove_copy(new)
+        raise
+
+
 @contextmanager
 def passing_copy(new: bpy.types.Object, obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
     """Provide a copy of an object to read from, and remove it.
@@ -60,10 +78,7 @@ def in_no_mode(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
         yield obj
         return
     flush(obj)
-    mesh, copy = mesh_of(obj).copy(), obj.copy()
-    assert mesh is not None and copy is not None
-    copy.data = mesh
-    with passing_copy(copy, obj):
+    with passing_copy(copied(obj), obj) as copy:
         yield copy
 
 

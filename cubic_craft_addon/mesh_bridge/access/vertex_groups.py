@@ -38,6 +38,8 @@ def weights_of_groups(obj: bpy.types.Object, names: Iterable[str]) -> dict[str, 
     vertices = mesh_of(obj).vertices
     weights = {name: np.zeros(len(vertices)) for name in names}
     by_index = {vertex_group(obj, name).index: found for name, found in weights.items()}
+    if not by_index:
+        return weights
     # Blender offers no array access to weights; this loop is as fast as going through bmesh.
     for vertex in vertices:
         for element in vertex.groups:

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
-from ..access.any_mode import flush, passing_copy, remove_copy
+from ..access.any_mode import copied, flush, passing_copy, removed_after_errors
 from ..access.arrays import mark_moved, write_position
 from ..access.attributes import check_names, our_attributes, remove_attribute
 from ..access.checks import check_local, mesh_of
@@ -48,21 +48,31 @@ def write_new_object(
     check_note(mesh)
     check_names(mesh)
     flush(obj)
-    new_mesh, new = mesh.copy(), obj.copy()
-    assert new_mesh is not None and new is not None
-    try:
-        new.data = new_mesh  # first, so that its active shape key is adjusted when ours is removed
-        write_mesh(new_mesh, positions, rotations, run, start)
-        new_mesh.name = f"{mesh.name} Cubic"
+    new = copied(obj)
+    with removed_after_errors(new):
+        write_mesh(mesh_of(new), positions, rotations, run, start)
+        mesh_of(new).name = f"{mesh.name} Cubic"
         new.name = f"{obj.name} Cubic"
-        link_beside(obj, new)
-        prepare(new)
-        select_instead(obj, new)
-    except BaseException:
-        bpy.data.objects.remove(new)
-        bpy.data.meshes.remove(new_mesh)
-        raise
+        show_beside(new, obj, prepare)
     return new
+
+
+def show_beside(
+    new: bpy.types.Object,
+    source: bpy.types.Object | None,
+    prepare: Callable[[bpy.types.Object], None] = lambda new: None,
+) -> None:
+    """Show a new object instead of its source, or in the scene if that is gone.
+
+    `prepare`: as of `write_new_object`.
+    """
+    if source is None:
+        bpy.context.scene.collection.objects.link(new)
+    else:
+        link_beside(source, new)
+    prepare(new)
+    if source is not None:
+        select_instead(source, new)
 
 
 def link_beside(obj: bpy.types.Object, new: bpy.types.Object) -> None:
@@ -99,16 +109,10 @@ def plain_copy(obj: bpy.types.Object, positions: np.ndarray) -> bpy.types.Object
     `obj`: an object with a mesh, not in Edit Mode. `positions`: (n,3) float32, object space. Raises
     CubicCraftError: a mesh that cannot be written; no copy is left then.
     """
-    new_mesh, new = mesh_of(obj).copy(), obj.copy()
-    assert new_mesh is not None and new is not None
-    new.data = new_mesh  # first, so that shape keys are removed from the copy alone
-    try:
-        _strip(new, new_mesh)
-        write_position(new_mesh, positions)
-        mark_moved(new_mesh)
-    except BaseException:
-        remove_copy(new)
-        raise
+    new = copied(obj)
+    with removed_after_errors(new):
+        _strip(new, mesh_of(new))
+        move_vertices(new, positions)
     return new
 
 
@@ -176,32 +180,17 @@ def write_seen(
     `prepare`, `run`: as for `write_new_object`. Raises CubicCraftError: as `write_mesh`. After any
     exception, there is no new object.
     """
-    try:
+    with removed_after_errors(new):
         write_mesh(mesh_of(new), positions, rotations, run)
-        if source is None:
-            bpy.context.scene.collection.objects.link(new)
-            prepare(new)
-            return new
-        link_beside(source, new)
-        prepare(new)
-        select_instead(source, new)
-    except BaseException:
-        remove_copy(new)
-        raise
+        show_beside(new, source, prepare)
     return new
 
 
-def move_seen(new: bpy.types.Object, positions: np.ndarray) -> None:
-    """Move the vertices of an object made by `make_seen` to positions (n,3), for good."""
+def move_vertices(new: bpy.types.Object, positions: np.ndarray) -> None:
+    """Move the vertices of an object without shape keys to positions (n,3), for good."""
     mesh = mesh_of(new)
     write_position(mesh, positions)
     mark_moved(mesh)
-
-
-def show_seen(new: bpy.types.Object, source: bpy.types.Object) -> None:
-    """Show an object made by `make_seen` beside the source."""
-    link_beside(source, new)
-    select_instead(source, new)
 
 
 def _forget_ours(mesh: bpy.types.Mesh) -> None:

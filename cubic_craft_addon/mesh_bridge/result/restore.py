@@ -7,7 +7,7 @@ from ....solver.errors import CubicCraftError
 from ..access.attributes import our_attributes
 from ..access.checks import check_writable, mesh_of
 from ..access.note import read_note, write_note
-from ..access.shapes import write_shapes
+from ..access.shapes import Shapes, write_shapes
 from ..access.sharp_edges import forget_edges, leave_edges
 from ..memory.cubic_key import find_cubic_key, remove_cubic_key
 from ..memory.first_original import drop_first, first_shapes, has_first
@@ -41,13 +41,7 @@ def restore(obj: bpy.types.Object) -> None:
                 "is now the original: Apply removes the remains of the previous one"
             )
         raise CubicCraftError(f'"{obj.name}" has no original to restore: cubify it first')
-    cubic_key = find_cubic_key(mesh)
-    original = original_shapes(mesh, "ORIGINAL")
-    with all_or_nothing(mesh):
-        write_shapes(mesh, original)
-        drop_stored(mesh)
-        forget_edges(mesh)
-        remove_cubic_key(mesh, cubic_key)
+    _put_back(mesh, original_shapes(mesh, "ORIGINAL"))
 
 
 def restore_first(obj: bpy.types.Object) -> None:
@@ -65,11 +59,16 @@ def restore_first(obj: bpy.types.Object) -> None:
     if first is None:
         how = "can no longer be determined" if has_first(mesh) else "is the only one"
         raise CubicCraftError(f'The first original of "{obj.name}" {how}: use Restore')
+    _put_back(mesh, first, is_first=True)
+
+
+def _put_back(mesh: bpy.types.Mesh, original: Shapes, *, is_first: bool = False) -> None:
     cubic_key = find_cubic_key(mesh)
     with all_or_nothing(mesh):
-        write_shapes(mesh, first)
+        write_shapes(mesh, original)
         drop_stored(mesh)
-        drop_first(mesh)
+        if is_first:
+            drop_first(mesh)
         forget_edges(mesh)
         remove_cubic_key(mesh, cubic_key)
 

@@ -82,13 +82,26 @@ def write_mesh(
     positions = with_strokes(mesh, positions, strokes, matrices)
     written = carry_finite(mesh, original, positions, matrices)
     with all_or_nothing(mesh):
-        drop_stored(mesh)
-        keep_first()
-        store_original(mesh, original, written, quaternions, strokes)
-        note_run(mesh, run)
-        write_shapes(mesh, written)
+        _replace(mesh, original, written, quaternions, strokes, run, keep_first)
         finish()
         remove_cubic_key(mesh, cubic_key)
+
+
+def _replace(
+    mesh: bpy.types.Mesh,
+    original: Shapes,
+    written: Shapes,
+    quaternions: np.ndarray,
+    strokes: np.ndarray | None,
+    run: dict[str, Any] | None,
+    keep_first: Callable[[], None] = lambda: None,
+) -> None:
+    """Write shapes, with all that is kept of them, in place of an earlier result."""
+    drop_stored(mesh)
+    keep_first()
+    store_original(mesh, original, written, quaternions, strokes)
+    note_run(mesh, run)
+    write_shapes(mesh, written)
 
 
 def write_shape_key(
@@ -109,7 +122,9 @@ def write_shape_key(
     mesh that cannot be written. The mesh is then unchanged.
     """
     mesh = mesh_of(obj)
-    _check_for_key(obj, mesh)
+    check_writable(mesh, obj.name)
+    check_relative_keys(obj)
+    end_preview(mesh)
     original = original_shapes(mesh, start)
     loose = loose_vertices(mesh)
     strokes = read_strokes(mesh, start)
@@ -117,20 +132,6 @@ def write_shape_key(
     positions = with_strokes(mesh, positions, strokes, matrices_for_storage(mesh, rotations, loose))
     keep_first = first_kept(mesh, start, original)
     _write_key(obj, original, positions, strokes, run, keep_first, finish)
-
-
-def reshape_key(
-    obj: bpy.types.Object, positions: np.ndarray, run: dict[str, Any] | None = None
-) -> None:
-    """Change the shape of a result in the shape key "Cubic", strokes included.
-
-    Parameters and errors are those of `write_shape_key`.
-    """
-    mesh = mesh_of(obj)
-    _check_for_key(obj, mesh)
-    original = original_shapes(mesh)
-    positions = rounded_for_storage(mesh, positions, original.base, loose_vertices(mesh))
-    _write_key(obj, original, positions, read_strokes(mesh, "EDITS"), run)
 
 
 def positions_with_strokes(
@@ -146,13 +147,6 @@ def positions_with_strokes(
     loose = loose_vertices(mesh)
     points = rounded_for_storage(mesh, positions, original_positions(mesh, start), loose)
     return with_strokes(mesh, points, strokes, matrices_for_storage(mesh, rotations, loose))
-
-
-def _check_for_key(obj: bpy.types.Object, mesh: bpy.types.Mesh) -> None:
-    """End a preview on a mesh that a shape key can be written to; refuse others."""
-    check_writable(mesh, obj.name)
-    check_relative_keys(obj)
-    end_preview(mesh)
 
 
 def _write_key(
@@ -209,7 +203,10 @@ def write_reshaped(obj: bpy.types.Object, positions: np.ndarray) -> None:
     end_preview(mesh)
     run = read_note(mesh).get("run")
     if find_cubic_key(mesh) is not None:
-        reshape_key(obj, positions, run)
+        check_relative_keys(obj)
+        original = original_shapes(mesh)
+        positions = rounded_for_storage(mesh, positions, original.base, loose_vertices(mesh))
+        _write_key(obj, original, positions, read_strokes(mesh, "EDITS"), run)
         return
     recognized = _recognized(mesh, obj.name)
     present, original = read_shapes(mesh), original_shapes(mesh, "ORIGINAL")
@@ -219,10 +216,7 @@ def write_reshaped(obj: bpy.types.Object, positions: np.ndarray) -> None:
     unturned = np.broadcast_to(np.eye(3), (len(positions), 3, 3))
     written = carry_finite(mesh, present, positions, unturned)
     with all_or_nothing(mesh):
-        drop_stored(mesh)
-        store_original(mesh, original, written, quaternions, strokes)
-        note_run(mesh, run)
-        write_shapes(mesh, written)
+        _replace(mesh, original, written, quaternions, strokes, run)
 
 
 def _recognized(mesh: bpy.types.Mesh, name: str) -> Recognized:
@@ -263,9 +257,5 @@ def keep_preview(mesh: bpy.types.Mesh, run: dict[str, Any], start: Start) -> Non
         original = original_shapes(mesh, start)
         strokes = read_strokes(mesh, start)
         keep_first = first_kept(mesh, start, original)
-        drop_stored(mesh)
-        keep_first()
-        store_original(mesh, original, shown, unturned, strokes)
-        note_run(mesh, run)
-        write_shapes(mesh, shown)
+        _replace(mesh, original, shown, unturned, strokes, run, keep_first)
         remove_cubic_key(mesh, cubic_key)

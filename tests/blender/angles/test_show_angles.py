@@ -180,7 +180,7 @@ def test_the_angles_follow_live(angles_now, begin, one_phase):
 def test_angles_of_few_objects_are_kept(angles_now, part):
     for name in "ABCD":
         angles_now(add_monkey(name))
-    assert len(part("angles.overlay")._known._known) == part("screen.kept").MOST
+    assert len(part("angles.overlay")._known._known) == part("environment.kept").MOST
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     assert part("angles.overlay")._known.is_empty
 
@@ -234,7 +234,7 @@ def test_the_legend_is_beside_the_sidebar_and_above_a_header(part):
 
 
 def test_the_overlay_leaves_nothing_behind(extension, angles_now, part):
-    overlay, kept = part("angles.overlay"), part("screen.kept")
+    overlay, kept = part("angles.overlay"), part("environment.kept")
     angles_now(add_monkey())
     assert len(overlay._handles) == 2
 

@@ -95,6 +95,9 @@ def test_they_are_found_after_a_pause_and_forgotten_when_the_mesh_changes(marks)
     assert marks.middles.now(obj)
     pin(obj, RIGHT)
     assert marks.middles.now(obj) is None, "the list is another one"
+    asked_for = marks.middles._waiting
+    marks.middles.forget()
+    assert not bpy.app.timers.is_registered(asked_for)
 
 
 def test_they_are_there_only_in_object_mode_without_live(is_marked, begin, live):

@@ -80,22 +80,6 @@ def test_it_keeps_that_when_a_file_is_saved_and_in_the_file(live, follow, tmp_pa
     assert bpy.context.object == bpy.data.objects[name] and len(bpy.data.objects) == 3
 
 
-def test_a_material_outlives_other_faces_of_the_original(live, follow):
-    obj = add_monkey()
-    session = tick_to_rest(follow(obj))
-    follower = follower_of(obj)
-    follower.data.materials.append(bpy.data.materials.new("Marble"))
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.mesh.subdivide()
-    tick_to_rest(session)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    tick_to_rest(session)
-    confirm(live, session)
-    assert len(follower.data.vertices) > 1500
-    assert [m.name for m in follower.data.materials] == ["Marble"]
-
-
 def test_weights_painted_on_it_are_kept_and_so_is_the_mode(live, follow):
     obj = add_monkey()
     session = tick_to_rest(follow(obj))

@@ -102,9 +102,10 @@ def test_what_is_carried_turns_with_the_surface_unless_all_moves_alike(part):
     np.testing.assert_allclose(solved.carried(strokes), positions + strokes @ turn.T, atol=1e-6)
 
 
-def test_other_faces_are_followed(live, follow):
+def test_other_faces_are_followed_and_keep_their_material(live, follow):
     obj = add_monkey()
     session = tick_to_rest(follow(obj))
+    follower_of(obj).data.materials.append(bpy.data.materials.new("Marble"))
     with edit_mode(obj):
         bpy.ops.mesh.select_all(action="SELECT")
         bpy.ops.mesh.subdivide()
@@ -112,6 +113,8 @@ def test_other_faces_are_followed(live, follow):
         assert len(follower_of(obj).data.vertices) > 1500
     tick_to_rest(session)
     confirm(live, session)
+    assert [m.name for m in follower_of(obj).data.materials] == ["Marble"]
+    follower_of(obj).data.materials.clear()
     check_same_as_new_object(obj, follower_of(obj))
 
 

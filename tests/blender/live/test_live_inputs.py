@@ -129,14 +129,3 @@ def test_crispness_is_followed_without_another_run(live, begin, extension, monke
     confirm(live, session)
     assert obj.cubic_craft.crispness == pytest.approx(0.9)
     check_same_as_cubify(obj)
-
-
-def test_after_it_was_cancelled_its_settings_come_back_unless_the_object_has_others(live, begin):
-    obj = add_triangles()
-    session = begin(obj, cubeness=0.2)
-    live.live_properties().cubeness = 0.75
-    session.on(live.Event.CANCEL)
-    for own, expected in ((0.2, 0.75), (0.3, 0.3)):
-        session = begin(obj, cubeness=own)
-        assert live.live_properties().cubeness == pytest.approx(expected)
-        session.on(live.Event.CANCEL)

@@ -173,7 +173,7 @@ def test_an_exception_in_the_solver_changes_nothing(part, monkeypatch):
 
 def test_a_refusal_by_the_solver_names_the_object_once(extension, monkeypatch):
     add_monkey()
-    memory = importlib.import_module(f"{extension.__name__}.solver.memory")
+    memory = importlib.import_module(f"{extension.__name__}.solver.surface.memory")
     monkeypatch.setattr(memory, "free_memory", lambda: 1_000_000)
     with pytest.raises(RuntimeError, match=r"507 vertices need about .* of memory") as caught:
         cubify()

@@ -179,7 +179,7 @@ def test_what_live_leaves_is_what_cubify_gives(live, begin, trio, change):
 
 
 def test_live_does_not_look_for_links_again(live, begin, trio, extension, monkeypatch):
-    rest = importlib.import_module(f"{extension.__name__}.solver.preparation")
+    rest = importlib.import_module(f"{extension.__name__}.solver.surface.preparation")
     looked = []
     rest_mesh = rest.rest_mesh
 

@@ -25,8 +25,3 @@ def test_runs_converge_to_the_shape_of_64_bit(name, cubeness):
     assert result.converged and exact.converged
     assert np.isfinite(result.positions).all()
     assert result.energy.total == pytest.approx(exact.energy.total, rel=1e-3, abs=1e-5)
-
-
-def test_a_bad_precision_is_refused():
-    with pytest.raises(ValueError, match="f64 or f32"):
-        stylize(*shapes.blob(1), 0.2, device="cpu", precision="f16", proxy=PAPER)

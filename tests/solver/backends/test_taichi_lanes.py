@@ -12,9 +12,9 @@ import shapes
 from engine_marks import needs_taichi
 
 from solver import PAPER
-from solver.preparation import rest_mesh
 from solver.styles.admm import AdmmOptions
 from solver.styles.cube import CUBE
+from solver.surface.preparation import rest_mesh
 
 ROOT = Path(__file__).parents[3]
 

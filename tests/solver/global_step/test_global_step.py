@@ -17,7 +17,7 @@ from solver.global_step.step import GlobalStep
 from solver.mesh.cotangents import cotangents
 from solver.mesh.spokes_and_rims import spokes_and_rims
 from solver.optional_packages import optional_package
-from solver.preparation import rest_mesh
+from solver.surface.preparation import rest_mesh
 
 NO_PINS = np.array([], int)
 

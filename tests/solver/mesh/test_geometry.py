@@ -12,7 +12,7 @@ from solver.mesh.cotangents import MAX_COTANGENT, cotangents
 from solver.mesh.mesh_checks import check_mesh
 from solver.mesh.rest_measures import areas_and_normals
 from solver.mesh.unit_box import unit_box
-from solver.preparation import rest_mesh
+from solver.surface.preparation import rest_mesh
 
 RIGHT = np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]])
 ONE = np.array([[0, 1, 2]])

@@ -135,7 +135,7 @@ def test_a_small_hole_does_not_open_a_part():
 def test_solidity_can_be_changed_without_another_search(monkeypatch):
     V, F = shapes.blob(3)
     rest = rest_mesh(V, F, ProxyOptions())
-    monkeypatch.setattr("solver.preparation.thickness_links", None)
+    monkeypatch.setattr("solver.surface.preparation.thickness_links", None)
     other = rest.with_options(replace(rest.options, solidity=0.5))
     assert other.links.weights.sum() == pytest.approx(0.5 / 0.3 * rest.links.weights.sum())
     hollow = rest.with_options(replace(rest.options, solidity=0.0))

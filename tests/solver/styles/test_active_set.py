@@ -9,10 +9,10 @@ from local_problems import Q, active_set_beside_admm, blob, deformed, objective,
 
 from solver import PAPER
 from solver.backends import local_step_class
-from solver.preparation import rest_mesh
 from solver.styles import admm
 from solver.styles.active_set import active_set_rotations
 from solver.styles.admm import AdmmOptions, admm_rotations
+from solver.surface.preparation import rest_mesh
 
 
 def start(problem):

@@ -3,9 +3,9 @@
 
 from dataclasses import dataclass
 
-from .aliases import Device, Precision
-from .inputs import instance, switch
-from .styles.admm import AdmmOptions
+from ..aliases import Device, Precision
+from ..inputs import instance, switch
+from ..styles.admm import AdmmOptions
 
 
 @dataclass(frozen=True, kw_only=True)

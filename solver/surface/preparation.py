@@ -7,23 +7,23 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .aliases import Faces
-from .errors import CubicCraftError
-from .inputs import instance, whole_numbers
+from ..aliases import Faces
+from ..errors import CubicCraftError
+from ..inputs import instance, whole_numbers
+from ..mesh.cotangents import cotangents
+from ..mesh.mesh_checks import check_mesh, faces_of_triangles
+from ..mesh.rest_measures import areas_and_normals
+from ..mesh.spokes_and_rims import spokes_and_rims
+from ..mesh.topology import topology
+from ..mesh.triangles import Triangles
+from ..proxy import Links, ProxyOptions, no_links, surface_of
+from ..proxy.cavities import links_outside
+from ..proxy.creases import cubic_shares, smoothness
+from ..proxy.flat_sides import stiffness
+from ..proxy.neighbors import neighbor_links
+from ..proxy.sheets import planar_sheets
+from ..proxy.thickness import outward_sign, thickness_links
 from .memory import check_memory
-from .mesh.cotangents import cotangents
-from .mesh.mesh_checks import check_mesh, faces_of_triangles
-from .mesh.rest_measures import areas_and_normals
-from .mesh.spokes_and_rims import spokes_and_rims
-from .mesh.topology import topology
-from .mesh.triangles import Triangles
-from .proxy import Links, ProxyOptions, no_links, surface_of
-from .proxy.cavities import links_outside
-from .proxy.creases import cubic_shares, smoothness
-from .proxy.flat_sides import stiffness
-from .proxy.neighbors import neighbor_links
-from .proxy.sheets import planar_sheets
-from .proxy.thickness import outward_sign, thickness_links
 from .rest import LIGHT, RestMesh
 
 

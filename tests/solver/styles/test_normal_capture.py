@@ -22,10 +22,10 @@ from solver import (
     stylize,
 )
 from solver.mesh.rest_measures import areas_and_normals
-from solver.normal_capture import MOST, targets_for
 from solver.styles.cube import CUBE
 from solver.styles.forms import dodecahedron
 from solver.styles.local_problem import LocalProblem
+from solver.styles.normal_capture import MOST, targets_for
 from solver.styles.polytope_step import polytopes
 
 

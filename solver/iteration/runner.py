@@ -12,21 +12,21 @@ from typing import Any, TypeAlias
 
 from numpy.typing import ArrayLike
 
-from .aliases import FloatArray
-from .coarse_to_fine.start import (
+from ..aliases import FloatArray
+from ..coarse_to_fine.start import (
     MAX_ITERATIONS,
     TOLERANCE,
     coarse_stylization,
     preview_on_fine,
     prolongate,
 )
-from .contacts.keep_apart import KeepApart
+from ..contacts.keep_apart import KeepApart
+from ..errors import CubicCraftError
+from ..hardening.hard_stylization import HardStylization
+from ..hardening.hardening import GIVEN_BACK, ROUNDS, is_hardened
+from ..inputs import instance, real_number, switch, whole_number
 from .energy import Energy
-from .errors import CubicCraftError
 from .from_below import FromBelow
-from .hardening.hard_stylization import HardStylization
-from .hardening.hardening import GIVEN_BACK, ROUNDS, is_hardened
-from .inputs import instance, real_number, switch, whole_number
 from .result import Reason, Result
 from .stop_rule import StopRule
 from .stylization import Stylization

@@ -15,9 +15,9 @@ from functools import cached_property
 
 import numpy as np
 
-from .aliases import BoolArray, FloatArray, IntArray, RealArray
-from .rotation_fit import svd_rotations
-from .values import Value
+from ..aliases import BoolArray, FloatArray, IntArray, RealArray
+from ..rotation_fit import svd_rotations
+from ..values import Value
 
 NO_PARTNER = -1
 """in place of the index of a partner"""

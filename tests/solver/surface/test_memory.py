@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import shapes
 
-from solver import PAPER, CubicCraftError, Run, Setup, Stylization, memory, rest_mesh
+from solver import PAPER, CubicCraftError, Run, Setup, Stylization, rest_mesh
+from solver.surface import memory
 
 
 def test_what_does_not_fit_is_refused_with_both_sizes_and_a_cure(monkeypatch):

@@ -7,7 +7,7 @@ import shapes
 from devices import by_device
 
 from solver import PAPER, Setup, Stylization, rest_mesh, stylize
-from solver.acceleration import Momentum
+from solver.iteration.acceleration import Momentum
 
 SHAPES = {"blob": shapes.blob(2), "sphere": shapes.sphere(), "skewed_blob": shapes.skewed_blob()}
 

@@ -11,8 +11,8 @@ from scipy.sparse import coo_matrix, diags
 from scipy.sparse.linalg import spsolve
 
 from solver import PAPER, ProxyOptions, rest_mesh, stylize
-from solver.details import radii, smoothed
 from solver.mesh.face_graph import FaceGraph
+from solver.surface.details import radii, smoothed
 
 DETAIL = replace(PAPER, detail=0.05)
 KEPT = {"keep_rotation": True, "crispness": 0.0}

@@ -6,7 +6,7 @@ import os
 import sys
 from pathlib import Path
 
-from .errors import CubicCraftError
+from ..errors import CubicCraftError
 
 BYTES_PER_VERTEX = 2700
 """peak of a run, measured on meshes of 245,000 and 405,000 vertices; smaller ones take less"""

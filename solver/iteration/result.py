@@ -4,9 +4,9 @@
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
-from .aliases import FloatArray, IntArray
+from ..aliases import FloatArray, IntArray
+from ..values import Value
 from .energy import Energy
-from .values import Value
 
 Reason: TypeAlias = Literal["converged", "max_iterations", "cancelled"]
 

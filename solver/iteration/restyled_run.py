@@ -10,8 +10,8 @@ is only near that of this one.
 
 from __future__ import annotations
 
-from .hardening.hardening import ROUNDS, Hardening
-from .hardening.sides import NO_SIDE
+from ..hardening.hardening import ROUNDS, Hardening
+from ..hardening.sides import NO_SIDE
 from .runner import Run
 from .setup import Setup
 from .stylization import Stylization

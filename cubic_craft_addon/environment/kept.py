@@ -1,23 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What takes too long to be found at each redraw: kept for a few objects until they change.
 
-A `FoundLater` finds it when nothing is drawn for a moment.
+A `FoundLater` finds it when nothing is drawn for a moment, and `KeptFrom` keeps what is made from
+other objects.
 """
 
 from collections.abc import Callable, Hashable, Iterable
 from functools import partial
+from hashlib import blake2b
 from typing import Any, Generic, TypeVar
 from weakref import WeakSet
 
 import bpy
+import numpy as np
 from bpy.app.handlers import persistent
 
-from ..environment import handlers
+from . import handlers
 
 T = TypeVar("T")
 
 MOST = 2
 """objects of which it is kept: windows may show different scenes"""
+MOST_MADE = 16
+"""things that are made from other objects, of a kind"""
 PAUSE = 0.2
 """seconds without a redraw that asks for it"""
 _OUTDATED = object()  # no key is equal to it
@@ -38,6 +43,9 @@ class Kept(Generic[T]):
 
     `changed`: returns of what it has to be found again after an update of Blender's.
     """
+
+    most = MOST
+    """of them"""
 
     def __init__(self, changed: Callable[[Any], Iterable[int]] = changed_shapes):
         self.changed = changed
@@ -70,11 +78,16 @@ class Kept(Generic[T]):
 
         The key is what it depends on besides what Blender reports.
         """
-        self._known.pop(uid, None)
-        while len(self._known) >= MOST:
-            del self._known[next(iter(self._known))]
-        self._known[uid] = key, found
+        _put(self._known, uid, (key, found), self.most)
         return found
+
+    def made(self, uid: int, make: Callable[[], T], key: Hashable = None) -> T:
+        """Return what is known, or else make and keep it; what making raises is raised each time.
+
+        `key`: as of `keep`.
+        """
+        known = self.get(uid, key)
+        return self.keep(uid, make(), key) if known is None else known
 
     def has_changed(self, uids: Iterable[int]) -> None:
         """Have it found again for some of them."""
@@ -192,3 +205,58 @@ class FoundLater(Kept[T]):
         if self._waiting is not None and self.is_waiting:
             bpy.app.timers.unregister(self._waiting)
         self._waiting = None
+
+
+class KeptFrom(Kept[T]):
+    """What is made from other objects, kept until Blender reports a change of the object.
+
+    The panel asks for the form and the normal capture at each redraw, and reading a mesh of half a
+    million vertices takes a good part of a second. Whatever changes what the viewport shows of an
+    object is evaluated by the dependency graph, which then reports the object: edits, modifiers and
+    what they depend on, shape keys, transforms.
+    """
+
+    most = MOST_MADE
+
+    def __init__(self):
+        super().__init__(lambda update: (update.id.original.session_uid,))
+
+    def of(self, obj: bpy.types.Object, make: Callable[[], T], key: Hashable = None) -> T:
+        """Return what is made from an object, made only if the object may have changed.
+
+        `key`: all besides the evaluated geometry that it depends on.
+        """
+        depsgraph = bpy.context.evaluated_depsgraph_get()  # evaluates, which may report changes
+        if not _is_watched(obj, depsgraph):
+            return make()
+        place = depsgraph.scene.session_uid, depsgraph.view_layer.name, obj.data.session_uid
+        return self.made(obj.session_uid, make, (place, key))
+
+
+def _is_watched(obj, depsgraph):
+    """Return whether changes of an object are reported: not of one that is in no scene or hidden.
+
+    Others may have removed our handlers, too.
+    """
+    if not handlers.are_installed(_HANDLERS) or obj.data is None:
+        return False
+    return obj.evaluated_get(depsgraph).is_evaluated and obj.visible_get()
+
+
+_of_arrays: dict[tuple, Any] = {}
+
+
+def once(make: Callable[..., T], *arrays: np.ndarray) -> T:
+    """Return the same for the same arrays, which are not kept: they may be large."""
+    key = make, *(blake2b(array.tobytes()).digest() for array in arrays)
+    if key not in _of_arrays:
+        _put(_of_arrays, key, make(*arrays), MOST_MADE)
+    return _of_arrays[key]
+
+
+def _put(values, key, value, most):
+    """Set a value of a dict, without those that were set first if it is too much."""
+    values.pop(key, None)
+    while len(values) >= most:
+        del values[next(iter(values))]
+    values[key] = value

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from engine_marks import needs_engine
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 
 def run(code):

@@ -11,23 +11,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..aliases import FloatArray
+from ..backends import local_step_class
+from ..coarse_to_fine.coarser import coarser_pose, coarser_style
+from ..contacts.riding import Riding
+from ..global_step.holds import Holds
+from ..inputs import instance, real_numbers
+from ..styles.admm import AdmmOptions
+from ..styles.polytope_step import polytopes
+from ..styles.solved_style import SolvedStyle, solved_style
+from ..styles.style import Style
+from ..surface.symmetry import Mirror
+from ..values import Stored, described
 from .acceleration import Momentum
-from .aliases import FloatArray
-from .backends import local_step_class
-from .coarse_to_fine.coarser import coarser_pose, coarser_style
-from .contacts.riding import Riding
 from .energy import Energy
-from .global_step.holds import Holds
-from .inputs import instance, real_numbers
 from .options import SolverOptions
 from .pose import Pose, pins_moved
 from .setup import Setup
-from .styles.admm import AdmmOptions
-from .styles.polytope_step import polytopes
-from .styles.solved_style import SolvedStyle, solved_style
-from .styles.style import Style
-from .symmetry import Mirror
-from .values import Stored, described
 
 _FIRST_SOLVES = 3  # where a solve is approximate, the first one starts far from the solution
 

@@ -12,10 +12,14 @@ from solids import add_solid
 
 @pytest.fixture
 def cache(part):
-    module = part("environment.object_cache")
-    module._kept.clear()
+    module = part("environment.kept")
+    module._forget()
     yield module
-    module._kept.clear()
+    module._forget()
+
+
+def is_empty(cache):
+    return all(each.is_empty for each in cache._all)
 
 
 @pytest.fixture
@@ -116,7 +120,7 @@ def check_is_new(cache, body, before):
     """Check that the form is another one: the one that is made without what was kept."""
     found = body()
     assert found.shape != before.shape or np.abs(found - before).max() > 1e-3
-    cache._kept.clear()
+    cache._forget()
     np.testing.assert_array_equal(found, body())
 
 
@@ -180,6 +184,17 @@ def test_undo_and_redo_are_seen(cache, body):
     np.testing.assert_array_equal(body(), after)
 
 
+def test_what_was_kept_first_is_forgotten_first(cache):
+    kept = cache.Kept()
+    for uid in (1, 2, 1, 3):
+        kept.keep(uid, f"of {uid}")
+    assert kept.uids == [1, 3]
+    made = cache.KeptFrom()
+    for uid in range(20):
+        made.keep(uid, f"of {uid}")
+    assert made.uids == [*range(4, 20)]
+
+
 def test_an_object_in_no_scene_is_read_each_time(cache, counted, body):
     gem = prepare()
     bpy.context.collection.objects.unlink(gem)
@@ -187,7 +202,7 @@ def test_an_object_in_no_scene_is_read_each_time(cache, counted, body):
     gem.data.transform(Matrix.Diagonal((1, 1, 3, 1)))
     before = len(counted)
     body()
-    assert len(counted) == before + 1 and not cache._kept
+    assert len(counted) == before + 1 and is_empty(cache)
 
 
 def test_without_our_handlers_nothing_is_kept(cache, counted, body, monkeypatch):
@@ -196,7 +211,7 @@ def test_without_our_handlers_nothing_is_kept(cache, counted, body, monkeypatch)
     try:
         body()
         body()
-        assert len(counted) == 2 and not cache._kept
+        assert len(counted) == 2 and is_empty(cache)
     finally:
         bpy.app.handlers.depsgraph_update_post.append(cache._on_update)
 

@@ -9,26 +9,26 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..aliases import BoolArray, FloatArray, IntArray
+from ..coarse_to_fine.contraction import contract
+from ..contacts.crossings import CrossingTriangles
+from ..inputs import real_numbers
+from ..limbs import Limbs, limbs_of_shape, with_coverings, with_hollows, without_shells
+from ..limbs.covering import COVERING
+from ..mesh.face_graph import FaceGraph
+from ..mesh.rest_measures import areas_and_normals, triangle_areas_and_normals
+from ..mesh.spokes_and_rims import SpokesAndRims, spokes_and_rims
+from ..mesh.topology import Topology
+from ..mesh.triangles import Triangles
+from ..mesh.unit_box import UnitBox
+from ..proxy import PAPER, InputMap, Links, ProxyOptions, no_links
+from ..proxy.boxes import box_frames
+from ..proxy.nearest import Nearest
+from ..proxy.samples import extents
+from ..proxy.sheets import cards, extrusions, planar_sheets
+from ..proxy.thickness import outward_sign
+from ..values import Value
 from . import details
-from .aliases import BoolArray, FloatArray, IntArray
-from .coarse_to_fine.contraction import contract
-from .contacts.crossings import CrossingTriangles
-from .inputs import real_numbers
-from .limbs import Limbs, limbs_of_shape, with_coverings, with_hollows, without_shells
-from .limbs.covering import COVERING
-from .mesh.face_graph import FaceGraph
-from .mesh.rest_measures import areas_and_normals, triangle_areas_and_normals
-from .mesh.spokes_and_rims import SpokesAndRims, spokes_and_rims
-from .mesh.topology import Topology
-from .mesh.triangles import Triangles
-from .mesh.unit_box import UnitBox
-from .proxy import PAPER, InputMap, Links, ProxyOptions, no_links
-from .proxy.boxes import box_frames
-from .proxy.nearest import Nearest
-from .proxy.samples import extents
-from .proxy.sheets import cards, extrusions, planar_sheets
-from .proxy.thickness import outward_sign
-from .values import Value
 
 LIGHT = 0.01
 """weight of planar sheets in place and rotation of what they hang on, in stiffness and links"""

@@ -11,15 +11,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .aliases import FloatArray
-from .errors import CubicCraftError
-from .global_step.holds import HoldFields
-from .global_step.step import GlobalStep
-from .inputs import instance, vertex_mask, vertex_numbers
-from .proxy import Links
-from .rest import RestMesh
-from .symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
-from .values import Stored, described
+from ..aliases import FloatArray
+from ..errors import CubicCraftError
+from ..global_step.holds import HoldFields
+from ..global_step.step import GlobalStep
+from ..inputs import instance, vertex_mask, vertex_numbers
+from ..proxy import Links
+from ..surface.rest import RestMesh
+from ..surface.symmetry import MATCHING, NO_PARTNER, Mirror, commuting, partners
+from ..values import Stored, described
 
 NARROW = 0.01
 """Longest side of the triangles, in the unit box, in a ring beside held vertices that is left free:

@@ -11,19 +11,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .aliases import BoolArray, Faces, FloatArray, IntArray
-from .errors import CubicCraftError
-from .facets.regions import nearest_labels
-from .inputs import real_numbers
-from .mesh.components import components
-from .mesh.edge_vectors import double_area_vectors, edge_vectors
-from .mesh.edges import Edges
-from .mesh.face_graph import FaceGraph
-from .mesh.mesh_checks import check_mesh
-from .mesh.nearest_on_planes import MOST, nearest_on_planes
-from .mesh.unit_box import unit_box
-from .proxy.weld import weld
-from .values import Value
+from ..aliases import BoolArray, Faces, FloatArray, IntArray
+from ..errors import CubicCraftError
+from ..inputs import real_numbers
+from ..mesh.components import components
+from ..mesh.edge_vectors import double_area_vectors, edge_vectors
+from ..mesh.edges import Edges
+from ..mesh.face_graph import FaceGraph
+from ..mesh.mesh_checks import check_mesh
+from ..mesh.nearest_on_planes import MOST, nearest_on_planes
+from ..mesh.unit_box import unit_box
+from ..proxy.weld import weld
+from ..values import Value
+from .regions import nearest_labels
 
 FEWEST = 3
 """triangles of a facet; fewer are a detail, not a side"""

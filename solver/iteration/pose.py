@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .aliases import FloatArray
-from .errors import CubicCraftError
-from .inputs import instance, real_numbers
-from .limbs import KnownLimbs
+from ..aliases import FloatArray
+from ..errors import CubicCraftError
+from ..inputs import instance, real_numbers
+from ..limbs import KnownLimbs
+from ..values import Value
 from .setup import Setup
-from .values import Value
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)

@@ -3,8 +3,8 @@
 
 from collections.abc import Iterator
 
-from .aliases import Device
-from .optional_packages import optional_package
+from ..aliases import Device
+from ..optional_packages import optional_package
 
 
 def loading_steps(device: Device = "auto") -> Iterator[None]:
@@ -40,7 +40,7 @@ def _import_packages():
 
 
 def _start_engine(device):
-    from .backends import engine, taichi_runtime
+    from ..backends import engine, taichi_runtime
 
     if device in ("auto", "cpu"):
         engine.import_engine()
@@ -52,8 +52,8 @@ def _start_engine(device):
 def _solve_little(device):
     import numpy as np
 
-    from .one_call import stylize
-    from .proxy import PAPER, ProxyOptions
+    from ..one_call import stylize
+    from ..proxy import PAPER, ProxyOptions
 
     V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])

@@ -12,9 +12,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .aliases import FloatArray
-from .errors import CubicCraftError
-from .inputs import real_numbers, vectors
+from ..aliases import FloatArray
+from ..errors import CubicCraftError
+from ..inputs import real_numbers, vectors
 
 LEAST = 4
 """directions"""

@@ -26,7 +26,7 @@ rest more.
 
 import numpy as np
 
-from .aliases import FloatArray
+from ..aliases import FloatArray
 
 WEIGHT = 1.75
 """of the cubeness where all normals agree"""
