@@ -21,17 +21,21 @@ def main(meshes, assets, *options):
     folder = Path(assets)
     report = folder.with_name(f"{folder.name}_report.json")
     command = [os.environ.get("BLENDER", "blender"), "--background", "--command", "cubic_craft"]
-    command += [meshes, "--output-folder", assets, "--report", str(report), "--jobs", "2"]
+    command += [meshes, "--output-folder", assets, "--report", str(report)]
     command += ["--save-mesh", ".glb", "--low-poly", *TRIANGLES, *options]
     code = subprocess.run(command, check=False).returncode
     if code not in (0, 3):  # nothing was begun, or it was interrupted
         return code
     rows = json.loads(report.read_text(encoding="utf-8"))["files"]
-    listed = {Path(row["input"]).name: row["outputs"] for row in rows if "outputs" in row}
+    listed = {
+        Path(row["input"]).name: [Path(path).name for path in row["outputs"]]
+        for row in rows
+        if "outputs" in row
+    }
     (folder / "assets.json").write_text(json.dumps(listed, indent=2) + "\n", encoding="utf-8")
     for row in rows:
         name = Path(row["input"]).name
-        print(name, row.get("error") or f"{row['seconds']:.0f} s", sep=": ")
+        print(name, row.get("error") or row["status"], sep=": ")
     return code
 
 

@@ -98,12 +98,10 @@ class Model:
 class FigureMeshes:
     """Loads meshes, cubifies them, and makes groups for galleries."""
 
-    def __init__(
-        self, folder: Path | None, bar: ProgressBar, verbose: bool, is_rough: bool = False
-    ) -> None:
+    def __init__(self, folder: Path | None, bar: ProgressBar, is_rough: bool = False) -> None:
         self.is_rough = is_rough
         self.limit = {"max_iterations": ROUGH_ITERATIONS} if is_rough else {}
-        self._folder, self._bar, self._verbose = folder, bar, verbose
+        self._folder, self._bar = folder, bar
         self._model, self._solve = cache(self._load), cache(self._solve_now)
 
     def there(self, names: Sequence[str], instead: Sequence[str]) -> list[Model]:
@@ -152,9 +150,7 @@ class FigureMeshes:
     def _load(self, name: str) -> Model:
         role, path, scene = ROLES[name], self._path(name), bpy.data.scenes.new(name)
         bpy.context.window.scene = scene
-        loaded = (
-            Loaded([role.source()]) if callable(role.source) else load(path, None, self._verbose)
-        )
+        loaded = Loaded([role.source()]) if callable(role.source) else load(path, None)
         bpy.context.view_layer.update()
         original = original_positions(loaded.objects[0].data)
         return Model(name, role, scene, loaded, path, original)

@@ -47,7 +47,7 @@ def _low_poly(meshes: FigureMeshes, model: Model) -> bpy.types.Object:
     bpy.context.view_layer.objects.active = obj
     operators: Any = bpy.ops.cubic_craft
     size = {"resolution": ROUGH_PIXELS} if meshes.is_rough else {}
-    with captured(verbose=False):
+    with captured():
         operators.cubify(cubeness=CUBENESS, space="OBJECT", **meshes.limit)
         operators.bake_normal_map(triangles=TRIANGLES, **size)
         low = bpy.context.object

@@ -59,7 +59,7 @@ def render_figures(wanted: list[str], options: Namespace) -> None:
     """
     bar = ProgressBar()
     with registered():
-        meshes = FigureMeshes(options.meshes, bar, options.verbose, options.rough)
+        meshes = FigureMeshes(options.meshes, bar, options.rough)
         for number in wanted:
             with bar.task(f"figure {number}") as task:
                 path = render_figure(FIGURES[number], meshes, options)
@@ -71,10 +71,9 @@ def render_figure(figure: Figure, meshes: FigureMeshes, options: Namespace) -> P
     gallery = _gallery(figure, meshes)
     path = options.output / f"{figure.name}.png"
     settings = {
-        **{name: getattr(options, name) for name in ("engine", "samples", "verbose")},
+        **{name: getattr(options, name) for name in ("engine", "samples")},
         "resolution": (options.width, round(options.width * figure.height / NOMINAL_WIDTH)),
         "turntable": 0,
-        "threads": None,  # all
     }
     list(render(gallery, [path], Namespace(**settings)))
     if options.save_blend:

@@ -62,7 +62,7 @@ def _painted_hide(model: Model, pixels: int) -> bpy.types.Image:
     bpy.ops.object.select_all(action="DESELECT")
     copy.select_set(True)
     bpy.context.view_layer.objects.active = copy
-    with captured(verbose=False):
+    with captured():
         bpy.ops.object.bake(type="EMIT", margin=int(MARGIN * pixels), use_clear=True)
     image.pack()
     bpy.data.meshes.remove(copy.data)  # takes the object along

@@ -59,7 +59,7 @@ def test_the_way_from_a_folder_to_an_engine(folder):
     variables = {"BLENDER": str(folder / "blender")}
     code, words = run(sys.executable, script, *arguments, cwd=folder, **variables)
     assert code == 3, words
-    assert "Broken.obj: holds only meshes without faces" in words
+    assert "Broken.obj: in/Broken.obj: holds only meshes without faces" in words
     listed = json.loads((folder / "assets" / "assets.json").read_text())
     names = [f"it's $HOME{end}.glb" for end in ("", "_lod1", "_lod2", "_lod3")]
     assert listed == {"it's $HOME.obj": names}
