@@ -99,8 +99,7 @@ class FigureMeshes:
     """Loads meshes, cubifies them, and makes groups for galleries."""
 
     def __init__(self, folder: Path | None, bar: ProgressBar, is_rough: bool = False) -> None:
-        self.is_rough = is_rough
-        self.limit = {"max_iterations": ROUGH_ITERATIONS} if is_rough else {}
+        self._limit = {"max_iterations": ROUGH_ITERATIONS} if is_rough else {}
         self._folder, self._bar = folder, bar
         self._model, self._solve = cache(self._load), cache(self._solve_now)
 
@@ -130,7 +129,7 @@ class FigureMeshes:
         """
         radians = tuple(math.radians(angle) for angle in orientation)
         settings = Settings(
-            cubeness=cubeness, orientation=radians, space="OBJECT", **self.limit, **others
+            cubeness=cubeness, orientation=radians, space="OBJECT", **self._limit, **others
         )
         return self._solve(model.name, settings)
 
