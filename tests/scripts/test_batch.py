@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from batch_kit import CUBE, MESHES, QUICK, batch, files_in, statuses
-from headless import PATIENCE, headless_ok, headless_refused, headless_shared, start_headless
+from batch_kit import CUBE, QUICK, batch, files_in, statuses
+from headless import PATIENCE, headless_ok, headless_refused, start_headless
 from scripts.cubic_craft.cubic_craft_addon.command_line.batch import jobs_of
 from scripts.cubic_craft.cubic_craft_addon.command_line.options.arguments import parse
 from scripts.cubic_craft.solver.console.many import one_by_one
@@ -88,32 +88,6 @@ def test_pictures_of_several_files_at_several_cubenesses(tmp_path):
     assert process.returncode == 0, process.stderr
     ends = ["_0001.png", "_0002.png", "_cubic_0.1.ply", "_cubic_0.2.ply"]
     assert files_in(tmp_path / "out") == [f"{name}{end}" for name in ("one", "two") for end in ends]
-
-
-@on_posix
-def test_files_of_any_name_get_the_handles_and_options_and_say_what_is_left_out(tmp_path):
-    names = ['[red]it\'s "$HOME" `ls`;#', "-lead [b] line\nbreak Größe 立方体 🧊"]
-    folder, out = tmp_path / "-odd [red] folder", "-out 立"
-    folder.mkdir()
-    for name in names:
-        (folder / f"{name}.obj").write_text(CUBE + "o dust\nv 5 5 5\nv 6 6 6\nl 9 10\n")
-    handles = [{"vertices": [0, 1, 2, 3]}, {"vertices": [4, 5], "translate": [0, 0.5, 0]}]
-    (tmp_path / "h.json").write_text(json.dumps(handles))
-    options = ("--handles", tmp_path / "h.json", "--cubeness", 0)
-    options += ("--orientation", "-0.00001", "-90.5", "0")
-    process = headless_shared(".", f"--output-folder={out}", *options, *MESHES, cwd=folder)
-    assert process.returncode == 0, process.stderr
-    assert files_in(folder / out) == sorted(f"{name}.obj" for name in names)
-    rows = [line for line in process.stderr.splitlines() if line[1:7] == " of 2,"]
-    assert len(rows) == len(names), "each has one line"
-    assert process.stderr.count('"dust" is left out') == 2
-    original = [line.split()[1:4] for line in CUBE.splitlines() if line[:2] == "v "]
-    for name in names:
-        lines = (folder / out / f"{name}.obj").read_text().splitlines()
-        V = np.array([line.split()[1:4] for line in lines if line[:2] == "v "], float)
-        moved = V[:8] - np.array(original, float)
-        np.testing.assert_allclose(moved[:4], 0.0, atol=1e-6)
-        np.testing.assert_allclose(moved[4:6], [[0, 0.5, 0]] * 2, atol=1e-6)
 
 
 def test_what_is_there_and_newer_is_kept(tmp_path):

@@ -208,9 +208,9 @@ def _add_picture(add: Adder) -> None:
     upright = "degrees that stand the objects upright, for files with another idea of up; the"
     upright += " result does not change"
     add("--turn", nargs=3, type=degrees, default=[0.0] * 3, metavar=axes, help=upright)
-    side = "that the objects are turned about the vertical toward the camera (default: 32, or a"
-    side += " quarter or two further where that shows more)"
-    add("--view", type=degrees, metavar="DEGREES", help=side)
+    side = "that the objects are turned about the vertical toward the camera (default: 32; files"
+    side += " that show their back have another idea of front: 212)"
+    add("--view", type=degrees, default=32.0, metavar="DEGREES", help=side)
     turns = "a picture sequence name_0001.png ..., each object turning about its vertical axis"
     add("--turntable", type=number(1, 9999, int), default=0, metavar="FRAMES", help=turns)
 
