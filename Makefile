@@ -107,7 +107,7 @@ $(VENV)-quadrants/.done: requirements/*.txt
 
 test-reliability: setup $(ZIP) $(VENV)-oldest/.done ## The long runs of docs/reliability.md; hours
 	CUBIC_CRAFT_ZIP=$(ZIP) CUBIC_CRAFT_FAULTS=1 CUBIC_CRAFT_ROUNDS=1000 CUBIC_CRAFT_OBJECTS=1000 \
-		CUBIC_CRAFT_KILLS=100 CUBIC_CRAFT_BATCH=200 CUBIC_CRAFT_OLDER_PYTHON=$(VENV)-oldest/bin/python \
+		CUBIC_CRAFT_KILLS=100 CUBIC_CRAFT_OLDER_PYTHON=$(VENV)-oldest/bin/python \
 		$(PY) $(PYTEST) --thorough tests/blender/test_faults.py tests/blender/mesh_bridge/test_bridge_faults.py tests/blender/test_leaks.py \
 		tests/blender/test_scenes.py tests/blender/environment/test_other_blenders.py \
 		tests/scripts/test_headless_interrupted.py

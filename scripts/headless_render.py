@@ -5,7 +5,7 @@ Runs under the ``bpy`` module and in Blender alike, where the extension is not i
 
     python scripts/headless_render.py bunny.obj --cubeness 0.2 0.4
     blender -b -P scripts/headless_render.py -- bunny.obj --cubeness 0.2 0.4
-    python scripts/headless_render.py meshes --output-folder cubic --jobs 2
+    python scripts/headless_render.py meshes --output-folder cubic
 """
 
 import os
@@ -25,7 +25,7 @@ NAME = "headless_render.py"
 
 def main() -> int:
     """Do what the command line says, and return the exit code."""
-    program = Program(NAME, NAME, _arguments(), _command, cubic_craft.registered)
+    program = Program(NAME, NAME, _arguments(), cubic_craft.registered)
     return main_of(program)
 
 
@@ -48,17 +48,6 @@ def _arguments() -> list[str]:
     if "--" in sys.argv:
         return sys.argv[sys.argv.index("--") + 1 :]
     return [] if IS_INSIDE_BLENDER else sys.argv[1:]
-
-
-def _command(threads: int | None) -> list[str]:
-    """Return what starts this script once more, by Python or the same Blender."""
-    bpy = sys.modules.get("bpy")
-    if bpy is None or not bpy.app.binary_path:  # the module
-        return [sys.executable, str(Path(__file__).resolve())]
-    # As this Blender was started; of two numbers of threads it takes the later.
-    own = sys.argv[1 : sys.argv.index("--")]
-    limit = ["--threads", str(threads)] if threads else []
-    return [bpy.app.binary_path, *limit, "--python-exit-code", "1", *own, "--"]
 
 
 if __name__ == "__main__":

@@ -135,16 +135,6 @@ class AnimatedGroup:
             return solver.FrameSequence(rest, state, forgotten=0.0)
         return solver.FrameSequence(rest, state)
 
-    def forget(self) -> None:
-        """Begin the next frame from its pose, not from the shape of the last frame.
-
-        A far pose, begun from that shape, can end in another minimum than the frames before it.
-        """
-        state = self.state
-        assert state is not None
-        still = np.broadcast_to(np.eye(3), state.rotations.shape)
-        self._sequence = self._continued(state._replace(positions=state.pose, rotations=still))
-
     @property
     def state(self):
         """The end of the last frame."""
@@ -170,13 +160,6 @@ class AnimatedGroup:
             self._last = yield from self._solve(unposed, members)
             self.moment = moment
         return self._last
-
-    def read_moment(self) -> str:
-        """Return what the result of the present frame of the scene depends on.
-
-        Raises CubicCraftError: as `solve`.
-        """
-        return self._read(1.0)[-1]
 
     def _read(self, share):
         known = zip(self.objects, self._unposed.pieces, strict=True)

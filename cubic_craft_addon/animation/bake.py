@@ -17,7 +17,6 @@ from ... import solver
 from ...solver import CubicCraftError
 from ...solver.pieces.placement import Placement
 from .. import mesh_bridge
-from ..environment.lock import BusyError
 from ..job.job import Step
 from ..read.member import assemblies
 from ..read.object_frame import placements
@@ -26,7 +25,6 @@ from ..settings.values import Settings
 from .animated import Animated, AnimatedGroup, FrameSettings
 from .even_speed import even_places, largest_steps, resampled
 from .exchange import SUFFIXES
-from .parts import lead_in
 from .places import BakeOptions, BakeResult, Places
 from .playback import play, shown, stretch
 from .point_cache import new_point_cache
@@ -34,7 +32,6 @@ from .recording import Recording
 from .sources import OF_ALL_FRAMES, animated_settings
 
 _SAVED_EVERY = 10.0  # seconds
-_ASKED_EVERY = 0.5  # seconds, while another bake has the files
 _MOST_SETTLING = 200  # frames after the full cubeness; far more than meshes take
 
 
@@ -123,15 +120,12 @@ class Bake:
     def steps(self) -> Generator[Step]:
         """Solve all frames; each turn does a phase of the solver."""
         yield Step(("Preparing",), 0.0, is_long=True)
-        yield from self._prepare()
+        self._prepare()
         if self._options.is_process:
             yield from self._process_steps()
             return
-        indices = self._options.indices
         known = min((work.recording.count for work in self._works), default=0)
-        numbers = list(indices[known:])
-        if numbers and not known and indices.start:
-            numbers = [0, *(yield from self._lead_in(indices.start)), *numbers]
+        numbers = range(known, len(self._options.frames))
         begin = time.perf_counter()
         for done, number in enumerate(numbers):
             if self._is_stopped or not self._works:
@@ -139,33 +133,15 @@ class Bake:
             frame = self._options.frames[number]
             self._scene.frame_set(frame)
             texts = self._texts(frame, done, len(numbers), begin)
-            if done and number > numbers[done - 1] + 1:  # between the first frame and a part
-                for work in self._works:
-                    work.group.forget()
             try:
                 for work in self._works:
-                    if indices.start + work.recording.count <= number or number < indices.start:
-                        is_kept = number >= indices.start
-                        yield from self._solve(work, work.group.solve(), texts, is_kept=is_kept)
+                    if work.recording.count <= number:
+                        yield from self._solve(work, work.group.solve(), texts)
             except CubicCraftError as error:
                 self._problems.append(f"Frame {frame}: {error}")
                 break
             if time.perf_counter() > self._next_save:
                 self._save()
-
-    def _lead_in(self, count):
-        """Read the frames before a part; return the indices of those to solve for it."""
-        moments = [[] for _ in self._works]
-        for number in range(count):
-            self._scene.frame_set(self._options.frames[number])
-            try:
-                for its, work in zip(moments, self._works, strict=True):
-                    its.append(work.group.read_moment())
-            except CubicCraftError:
-                break  # which the bake says when it gets there
-            yield Step((f"Reading frame {self._options.frames[number]}",), 0.0)
-        begin = min(map(lead_in, moments), default=0)
-        return range(max(begin, 1), count)  # the first of all is solved anyway
 
     def _process_steps(self):
         """Raise the cubeness evenly, then go on until nothing moves any more."""
@@ -215,7 +191,7 @@ class Bake:
             items.append(_Item(one, settings, placements(one.source, settings, is_posed=True)[1]))
         for group in assemblies(items):
             try:
-                self._works.append((yield from self._work([item.one for item in group])))
+                self._works.append(self._work([item.one for item in group]))
             except CubicCraftError as error:
                 self._problems.append(str(error))
 
@@ -228,25 +204,14 @@ class Bake:
         about = {**group.about, "start": options.start, "stretch": self._stretch}
         if options.is_process:
             about["process"] = len(options.frames)
-        recording = yield from self._recording(path, about, group.vertices)
+        recording = Recording(path, about, group.vertices)
         if recording.state is not None:
             group.continue_from(recording.state, recording.moment, recording.last())
         return _Work(group, recording)
 
-    def _recording(self, folder, about, vertices):
-        while True:
-            try:
-                return Recording(folder, about, vertices, self._options.part)
-            except BusyError:
-                if not self._options.is_patient:
-                    raise
-            yield Step((f'Waiting for another bake to "{folder.name}"',), 0.0)
-            time.sleep(_ASKED_EVERY)
-
-    def _solve(self, work, solving, texts, *, is_kept=True):
+    def _solve(self, work, solving, texts):
         frame = yield from self._solved(solving, texts)
-        if is_kept:
-            work.recording.append(frame, work.group.state, work.group.moment)
+        work.recording.append(frame, work.group.state, work.group.moment)
         yield Step(texts, self._factor)
 
     def _solved(self, solving, texts) -> Generator[Step, None, solver.Frames]:
@@ -260,10 +225,10 @@ class Bake:
     @property
     def _factor(self):
         count = min(work.recording.count for work in self._works)
-        return min(count / max(len(self._options.indices), 1), 1.0)
+        return min(count / max(len(self._options.frames), 1), 1.0)
 
     def _texts(self, frame, done, count, begin):
-        short = f"Frame {frame} of {self._options.frames[self._options.indices[-1]]}"
+        short = f"Frame {frame} of {self._options.end}"
         if not done:
             return (short,)
         left = (time.perf_counter() - begin) / done * (count - done)
@@ -277,17 +242,13 @@ class Bake:
     # -- writing -----------------------------------------------------------------------------------
 
     def write(self, *, is_alone: bool) -> tuple[str, list[str]]:
-        """Write the files of what is solved, and make objects that play them back; not of a part.
+        """Write the files of what is solved, and make objects that play them back.
 
         Returns `summary`: str; `problems`: list of str. Raises CubicCraftError: no frame was
-        solved, or not all of a part; the message lists all problems.
+        solved; the message lists all problems.
         """
         self._restore_scene()
         self._save()
-        if self._options.part is not None:
-            if self._problems:
-                raise CubicCraftError("; ".join(self._problems))
-            return f"Solved {len(self._options.part)} of {len(self._options.frames)} frames", []
         works = [work for work in self._works if work.recording.count]
         if not works:
             raise CubicCraftError("; ".join(self._problems) or "no frame was baked")

@@ -31,20 +31,11 @@ class BakeOptions:
     """whether the frames show how the present shape becomes cubic, at even speed"""
     process_from: SettingsOverrides | None = None
     """the settings that it begins with; None is the original"""
-    is_patient: bool = False
-    """whether to wait while another bake has the same files, and not to refuse"""
-    part: range | None = None
-    """indices of the frames to solve, apart from the others; None is all, and writes them"""
 
     @property
     def frames(self):
         """The numbers of the frames."""
         return range(self.start, self.end + 1)
-
-    @property
-    def indices(self):
-        """The indices of those to solve."""
-        return range(len(self.frames)) if self.part is None else self.part
 
 
 @dataclass(frozen=True)

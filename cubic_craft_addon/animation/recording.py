@@ -7,7 +7,6 @@ to a file and read back by pieces of the vertices. The folder is removed once th
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
-import glob
 import json
 import shutil
 import zipfile
@@ -25,7 +24,6 @@ from ..environment.lock import Lock
 _COLUMNS = 10  # input, turn as a quaternion, offset
 _BYTES = 4 * _COLUMNS
 _PIECE = 32_000_000  # bytes of float64 that are read at once
-_PART = ".part_"  # behind the name of the folder, and before the indices
 _FRAMES, _ABOUT, _STATE = "frames.f32", "about.json", "state.npz"
 
 
@@ -45,8 +43,7 @@ class Recording:
     No other process has the folder until it is released.
 
     `folder`: it is made if it is not there. `about`: what the frames depend on, for JSON; frames of
-    anything else are forgotten. `part`: indices of the frames that are solved here, apart from the
-    others. Without it, what parts have solved is taken over.
+    anything else are forgotten.
 
     Attributes
     ----------
@@ -62,23 +59,18 @@ class Recording:
     Raises
     ------
     BusyError
-        Another process has the folder, or that of a part.
+        Another process has the folder.
     """
 
-    def __init__(
-        self, folder: Path, about: dict[str, Any], vertices: int, part: range | None = None
-    ):
-        place = "" if part is None else f"{_PART}{part.start:07}_{part.stop:07}"
-        self.folder, self._vertices = folder.with_name(folder.name + place), vertices
+    def __init__(self, folder: Path, about: dict[str, Any], vertices: int):
+        self.folder, self._vertices = folder, vertices
         self.count, self._checksum, self.moment = 0, 0, ""
         self.state: solver.SequenceState | None = None
         self._about = json.loads(json.dumps({**about, "vertices": vertices}))
         self.folder.parent.mkdir(parents=True, exist_ok=True)
-        self._held = {self.folder: Lock(self.folder)}
+        self._lock = Lock(self.folder)
         try:
             self._continue()
-            if part is None:
-                self._take_parts()
         except BaseException:
             self.release()
             raise
@@ -93,21 +85,6 @@ class Recording:
             (self.folder / _ABOUT).write_text(json.dumps(self._about), encoding="utf-8")
         else:
             self.count, self._checksum, self.moment, self.state = saved
-
-    def _take_parts(self):
-        """Append what was solved apart, as far as each part follows on."""
-        for folder in sorted(self.folder.parent.glob(f"{glob.escape(self.folder.name)}{_PART}*")):
-            self._held[folder] = Lock(folder)
-            begin, _end = map(int, folder.name.rpartition(_PART)[2].split("_"))
-            part = self._saved_in(folder)
-            if part is None or not begin <= self.count < begin + part.count:
-                continue
-            with (folder / _FRAMES).open("rb") as its:
-                its.seek((self.count - begin) * self._frame_bytes)
-                while self.count < begin + part.count:
-                    self._write(its.read(self._frame_bytes))
-            self.moment, self.state = part.moment, part.state
-            self.save_state()
 
     def _saved_in(self, folder) -> _Saved | None:
         """Return the end of a recording of the same, if all its frames are there."""
@@ -179,13 +156,10 @@ class Recording:
         return solver.Frames(values[..., :3], values[..., 3:7], values[..., 7:])
 
     def remove(self) -> None:
-        """Remove the folder, and those of the parts."""
+        """Remove the folder."""
         self.state = None
-        for folder in self._held:
-            shutil.rmtree(folder, ignore_errors=True)
+        shutil.rmtree(self.folder, ignore_errors=True)
 
     def release(self) -> None:
-        """Let other processes have the folders; nothing can be done with this afterwards."""
-        for lock in self._held.values():
-            lock.release()
-        self._held.clear()
+        """Let other processes have the folder; nothing can be done with this afterwards."""
+        self._lock.release()

@@ -2,7 +2,6 @@
 """The command that Blender knows while the extension is enabled: ``blender -c cubic_craft``."""
 
 import contextlib
-import sys
 from typing import Any
 
 import bpy
@@ -25,16 +24,8 @@ def unregister():
 def _execute(arguments: list[str]) -> int:
     from .main import Program, main_of  # late: hardly a start of Blender needs it
 
-    # What was given to Blender itself stays in force for the processes of a batch.
-    own = sys.argv[1 : len(sys.argv) - len(arguments) - 2]
-
-    def command(threads: int | None) -> list[str]:
-        # Of two numbers of threads Blender takes the later.
-        limit = ["--threads", str(threads)] if threads else []
-        return [bpy.app.binary_path, *limit, *own, "--command", NAME]
-
     try:
-        program = Program(NAME, f"blender -c {NAME}", arguments, command, contextlib.nullcontext)
+        program = Program(NAME, f"blender -c {NAME}", arguments, contextlib.nullcontext)
         return main_of(program)
     except SystemExit as end:  # after --help; Blender would take it for an error
         return int(end.code or 0)

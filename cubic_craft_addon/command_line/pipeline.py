@@ -7,6 +7,7 @@ from argparse import Namespace
 from collections.abc import Iterator
 from typing import Any
 
+from ...solver.console.many import write_json
 from ...solver.console.output import refusals_of
 from ..environment.requirements import new_engine_warnings
 from ..send.targets import check_exporter
@@ -19,40 +20,41 @@ from .reading.form_mesh import make_form, read_form
 from .reading.load_meshes import Loaded, empty_blender, load
 from .solving.bake_frames import bake_frames
 from .solving.cubify_all import cubify_all
-from .writing.report import about_sculptures, write_report
+from .writing.report import about_sculptures, report_of
 from .writing.save_meshes import save_meshes
 
 
-def run(options: Namespace, begin: float) -> None:
-    """Do what the command line says.
+def run(options: Namespace, begin: float) -> dict[str, Any]:
+    """Do what the command line says for one file, and return the report, which is also written.
 
-    `options`: from `arguments.parse`. `begin`: `time.perf_counter` at the start of the script, for
-    the report. Raises InputError: the input, an option or an output cannot be used.
+    `options`: from `arguments.parse` or `options_for`. `begin`: `time.perf_counter` at the start,
+    for the report. Raises InputError: the input, an option or an output cannot be used.
     """
     empty_blender()
     if options.save_mesh:
         with refusals_of(options.save_mesh):
             check_exporter(options.save_mesh.suffix)
-    bar = ProgressBar(is_silent=bool(options.worker))
+    bar = ProgressBar()
     seconds: dict[str, float] = {}
     loaded = _load(options, seconds)
     for name in loaded.covered:
         bar.say(f'"{name}": what is seen is taken, as its modifiers show a shape of their own')
     about = (_bake if options.bake else _sculpt)(loaded, options, bar, seconds)
     seconds["total"] = time.perf_counter() - begin
+    report = report_of(about, options, seconds)
     if options.report:
-        write_report(options.report, about, options, seconds)
+        write_json(options.report, report)
         bar.say(f"wrote {options.report}")
+    return report
 
 
 def _load(options: Namespace, seconds: dict[str, float]) -> Loaded:
-    form = read_form(options.form_object, options.verbose) if options.form_object else None
-    capture = read_form(options.capture, options.verbose) if options.capture else None
+    form = read_form(options.form_object) if options.form_object else None
+    capture = read_form(options.capture) if options.capture else None
     with _timed("load", seconds):
         loaded = load(
             options.input,
             options.object,
-            options.verbose,
             is_seen=not options.bake,
             is_all_seen=options.with_modifiers,
         )
@@ -72,10 +74,9 @@ def _sculpt(
     with _timed("write", seconds):
         if options.save_mesh:
             paths = per_cubeness(options.save_mesh, options.cubeness)
-            levels, verbose = options.low_poly, options.verbose
-            for problem in save_meshes(paths, sculptures, loaded, levels, verbose):
-                bar.warn(problem)
-            done = meshes(options.save_mesh, options.cubeness, levels)
+            for problem in save_meshes(paths, sculptures, loaded, options.low_poly):
+                bar.say(problem)
+            done = meshes(options.save_mesh, options.cubeness, options.low_poly)
             bar.say(f"wrote {', '.join(map(str, done))}")
     with _timed("render", seconds):
         if options.output:

@@ -11,8 +11,8 @@ from typing import Any
 
 from solver.console.crossing_words import end_words
 from solver.console.interruption import end_on_signals
+from solver.console.many import in_words, one_by_one
 from solver.console.output import InputError, check_folder, check_place, refusals_of, replacing
-from solver.console.report import DONE, FAILED, counts_of, in_words, write_batch
 from solver.console.sources import check_source, find_sources, listing, make_folder
 
 from .arguments import FORMATS, parse
@@ -37,34 +37,8 @@ def run(arguments: list[str]) -> int:
         return 2
     if kinds and not options.quiet:
         _say(f"left out, of kinds that are not read: {in_words(kinds)}")
-    files, is_written, begin = [], True, time.perf_counter()
-    for source, output in jobs:
-        about = _about(source, output, options)
-        files.append({"input": source, **about})
-        if options.report:
-            try:
-                write_batch(options.report, {}, len(jobs), begin, files)
-                is_written = True
-            except (InputError, OSError) as error:
-                is_written = False
-                _say(f"error: {error}")
-    failed = counts_of(files)[FAILED]
-    if len(jobs) == 1 and failed:
-        return 2
-    if failed:
-        _say(f"{failed} of {len(jobs)} files failed")
-    return 0 if is_written and not failed else 3
-
-
-def _about(source: str, output: str, options: Namespace) -> dict[str, Any]:
-    try:
-        about, lines = _run(source, output, options)
-    except InputError as error:
-        _say(f"error: {error}")
-        return {"status": FAILED, "error": str(error)}
-    for line in lines if not options.quiet else ():
-        _say(line)
-    return {"status": DONE, "outputs": [output], **about}
+    each = [(source, (source, output)) for source, output in jobs]
+    return one_by_one(each, lambda job: _run(job[0], job[1], options), _say, options.report)
 
 
 def _say(line: str) -> None:
@@ -122,8 +96,8 @@ def _check_output(source: str, output: str) -> None:
         raise InputError(f"{output}: this is the input; give another name")
 
 
-def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], list[str]]:
-    """Read, stylize and write; return what the report has, and a summary and notes."""
+def _run(source: str, output: str, options: Namespace) -> dict[str, Any]:
+    """Read, stylize and write; say how that went, and return what the report has."""
     # Late, because they take a while to import: --help and mistyped options need none.
     from . import scene_file
     from .style import stylized
@@ -144,8 +118,11 @@ def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], 
         f"{result.iterations} iterations, {end}, energy {result.energy.total:.5g}, "
         f"{result.device}, {seconds:.1f} s"
     )
+    for line in (summary, *(f"note: {note}" for note in notes)) if not options.quiet else ():
+        _say(line)
     numbers = {name: getattr(result.energy, name) for name in ("total", "arap", "cubic")}
-    about = {
+    return {
+        "outputs": [output],
         "seconds": seconds,
         "vertices": len(file.points),
         "faces": file.face_count,
@@ -156,4 +133,3 @@ def _run(source: str, output: str, options: Namespace) -> tuple[dict[str, Any], 
         "device": result.device,
         "notes": notes,
     }
-    return about, [summary, *(f"note: {note}" for note in notes)]

@@ -13,6 +13,7 @@ import trimesh
 from trimesh.exchange import gltf
 
 from solver.console.output import InputError
+from solver.console.sources import check_content
 from solver.errors import CubicCraftError
 from solver.meshes import placed_surface, with_positions
 
@@ -114,14 +115,11 @@ def read(path: Path) -> MeshFile:
 
     Raises InputError: it is missing or cannot be read, or is no surface.
     """
+    check_content(path)
     try:
-        if not path.stat().st_size:
-            raise InputError("the file is empty; export it again")
         file = (ObjText if path.suffix.lower() == ".obj" else SceneFile)(path)
     except InputError as error:
         raise InputError(f"{path}: {error}") from error
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     sizes = np.abs(file.points).max(axis=1, initial=0.0)
     (found,) = np.nonzero((sizes > _LARGEST) & np.isfinite(sizes))
     if len(found):

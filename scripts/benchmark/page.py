@@ -3,30 +3,14 @@
 
 from statistics import geometric_mean, median
 
-from .runs import CUBENESS, ITERATIONS
-
 EXPLAINED = "benchmarks_explained.md"
-PAPER_SECONDS = {
-    "homer": (3.39, 10.03),
-    "bunny": (3.55, 27.56),
-    "owl": (6.69, 160.52),
-    "horse": (8.25, 211.62),
-    "armadillo": (7.80, 217.96),
-}
-"""Table 1 of the paper: on a GPU (NVIDIA RTX 3050 Ti) and on a CPU (AMD R9 5900HS, the solver of
-Liu and Jacobson), by mesh"""
 JUDGED_FROM = 2000
 """vertices of the meshes over which the mean cost of the defaults is taken"""
 
-TEN = f"""\
-{ITERATIONS} outer iterations at cubeness {CUBENESS}, as in the paper, with all set-up. The columns
-of the paper are its Table 1, from other hardware: an NVIDIA RTX 3050 Ti, and for the CPU the
-program of Liu and Jacobson on an AMD R9 5900HS."""
 PYMESHLAB = """\
 PyMeshLab's filter `apply_coord_cubic_stylization` with its default stop; ours as in the paper.
 "Ours as low" is when ours reaches the energy at which PyMeshLab ends; "times faster" compares both
 at their own stop."""
-SCALING = "One shape, simplified or subdivided to each size, as in the paper."
 DEFAULTS = "The artist's defaults beside the paper's settings, each to its own stop."
 
 
@@ -37,7 +21,7 @@ def page(results):
 
 Written by `make bench`, side by side on one machine. [What the tables mean, and what bounds the
 times]({EXPLAINED}) has a page of its own. Rows are *as in the paper* unless they name the
-defaults. Runs of each program: {results["runs"]}, of which the median counts; one of large meshes.
+defaults. Runs of each program: {results["runs"]}, of which the median counts.
 
 {results["machine"]}
 """
@@ -62,21 +46,6 @@ def _cell(value):
     return f"{value:.3g}" if abs(value) < 1000 and isinstance(value, float) else f"{value:,.0f}"
 
 
-def _ten(case):
-    ours = median(case["seconds"])
-    gpu, cpu = PAPER_SECONDS.get(case["mesh"], (None, None))
-    return {
-        "mesh": case["mesh"],
-        "vertices": case["vertices"],
-        "reading the file, s": median(case["reading"]),
-        "CubicCraft, s": ours,
-        "paper, GPU, s": gpu,
-        "paper, CPU, s": cpu,
-        "times the paper's GPU": _ratio(gpu, ours),
-        "times the paper's CPU": _ratio(cpu, ours),
-    }
-
-
 def _pymeshlab(case):
     end, energy = (median_of(case, "pymeshlab", name) for name in ("seconds", "energy"))
     stop, there = median_of(case, "ours", "seconds"), seconds_to(case["ours"], energy)
@@ -88,18 +57,6 @@ def _pymeshlab(case):
         "ours at its stop, s": stop,
         "our energy": f"{median_of(case, 'ours', 'energy'):.5f}",
         "times faster": _ratio(end, stop),
-    }
-
-
-def _scaling(case):
-    one = [1000 * (run["seconds"] - run["setup"]) / run["iterations"] for run in case["ours"]]
-    return {
-        "vertices": case["vertices"],
-        "set-up, s": median_of(case, "ours", "setup"),
-        "ms per iteration": median(one),
-        **_end(case, "ours", "to our stop"),
-        "peak memory, MiB": round(case["peak"] / 1024**2),
-        "for the run, MiB": round(case["above"] / 1024**2),
     }
 
 
@@ -120,9 +77,7 @@ def _mean(cases):
 
 
 _SECTIONS = {
-    "ten": ("Ten iterations", TEN, _ten),
     "pymeshlab": ("Beside PyMeshLab", PYMESHLAB, _pymeshlab),
-    "scaling": ("Time over size", SCALING, _scaling),
     "defaults": ("With the defaults", DEFAULTS, _defaults),
 }
 

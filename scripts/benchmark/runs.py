@@ -7,18 +7,14 @@ beginning, energy] after each iteration.
 """
 
 import multiprocessing
+import os
 import platform
 import re
-import resource
-import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager
 from importlib import metadata
 from importlib.util import find_spec
 from pathlib import Path
-
-import psutil
 
 from solver import PAPER, ProxyOptions, Setup, SolverOptions, Stylization, rest_mesh, run
 
@@ -26,8 +22,6 @@ from .meshes import read
 from .shapes import blob
 
 PACKAGES = ("numpy", "scipy", "taichi", "quadrants", "cholespy", "pymeshlab", "bpy")
-_STATUS, _RESET = Path("/proc/self/status"), Path("/proc/self/clear_refs")
-CUBENESS, ITERATIONS = 0.4, 10
 SETTINGS = {"paper": (PAPER, False), "defaults": (ProxyOptions(), True)}
 """name: how the mesh is prepared, and whether parts keep their rotation"""
 LIMIT_SECONDS = 240.0
@@ -44,38 +38,16 @@ def machine_line():
     there = [name for name in PACKAGES if find_spec(name)]
     versions = ", ".join(f"{name} {metadata.version(name)}" for name in there)
     return (
-        f"{processor}, {psutil.cpu_count()} cores, {platform.system()},"
+        f"{processor}, {os.cpu_count()} cores, {platform.system()},"
         f" Python {platform.python_version()}; {versions}."
     )
 
 
 def isolated(function, **arguments):
-    """Call a function in a process of its own, so that its memory and its start are its own too."""
+    """Call a function in a process of its own, so that its caches and its start are its own too."""
     spawn = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(1, mp_context=spawn) as pool:
         return pool.submit(function, **arguments).result()
-
-
-@contextmanager
-def peak_memory():
-    """Give a dict that has two numbers of bytes once the block has ended.
-
-    They are the ``peak`` of this process in the block, and how much that is ``above`` what there
-    was before. Other systems than Linux count the peak since the start of the process.
-    """
-    before, figures = psutil.Process().memory_info().rss, {}
-    if _RESET.exists():
-        _RESET.write_text("5")
-    yield figures
-    peak = _peak_bytes()
-    figures |= {"peak": peak, "above": peak - before}
-
-
-def _peak_bytes():
-    if _STATUS.exists():  # what getrusage says on Linux cannot be reset
-        return 1024 * int(re.findall(r"VmHWM:\s*(\d+)", _STATUS.read_text())[0])
-    unit = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
 
 
 def solve(V, F, cubeness, name="paper", **stop):
@@ -120,19 +92,6 @@ def energy_of(setup, cubeness, positions):
     )
 
 
-def ten_iterations(source, runs):
-    """Return the ``seconds`` of each run, and those of ``reading`` the file before it."""
-    _load_kernels()
-    read(source)  # imports the reader, and has the file in the system's cache
-    figures = {"seconds": [], "reading": []}
-    for _ in range(runs):
-        begin = time.perf_counter()
-        V, F = read(source)
-        figures["reading"].append(time.perf_counter() - begin)
-        figures["seconds"].append(solve(V, F, CUBENESS, max_iterations=ITERATIONS)[0]["seconds"])
-    return figures
-
-
 def beside_pymeshlab(path, cubeness, runs):
     """Run ours and PyMeshLab in turn, to their own stops; return lists of runs of both.
 
@@ -150,15 +109,6 @@ def beside_pymeshlab(path, cubeness, runs):
     return results
 
 
-def one_size(path, runs):
-    """Run one mesh to our own stop; return ``ours``, and the memory of the first run."""
-    _load_kernels()
-    with peak_memory() as memory:
-        V, F = read(path)
-        first = solve(V, F, CUBENESS)[0]
-    return {"ours": [first, *(solve(V, F, CUBENESS)[0] for _ in range(runs - 1))], **memory}
-
-
 def both_settings(path, cubeness, runs):
     """Run the settings in turn, each to its own stop; return the runs of each, by name."""
     V, F = read(path)
@@ -171,7 +121,7 @@ def both_settings(path, cubeness, runs):
 
 def _load_kernels():
     """Solve something, so that nothing has to be imported, compiled or loaded in what follows."""
-    solve(*blob(3), CUBENESS, max_iterations=3)
+    solve(*blob(3), 0.4, max_iterations=3)
 
 
 def _solve_by_pymeshlab(V, F, cubeness):

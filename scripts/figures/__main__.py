@@ -19,7 +19,7 @@ from cubic_craft.solver.console.interruption import end_on_signals  # noqa: E402
 from cubic_craft.solver.console.output import InputError  # noqa: E402
 
 PROGRAM = "figures"
-ALL = ["1", "2", "3", "5", "6", "character", "forms", "captures", "rigs", "low_poly"]
+ALL = ["1", "2", "3", "5", "6", "character", "forms", "captures"]
 """figures; the fourth is a picture of the window tests"""
 
 
@@ -39,10 +39,8 @@ def arguments() -> argparse.Namespace:
     add("--only", nargs="+", choices=ALL, default=ALL, help="numbers or names of figures")
     add("--width", type=int, default=1600, help="pixels")
     add("--samples", type=int, default=24, help="of Cycles, denoised")
-    add("--rough", action="store_true", help="few iterations and small textures, to try things out")
+    add("--rough", action="store_true", help="few iterations, to try things out")
     add("--engine", choices=("cycles", "workbench"), default="cycles", help="of Blender")
-    scenes = "folder to save the scene of each rendered figure in, to look at it in Blender"
-    add("--save-blend", type=Path, help=scenes)
     add("--verbose", action="store_true", help="show Blender's own messages")
     options = parser.parse_args()
     if options.width < 16 or options.samples < 1:
@@ -58,9 +56,7 @@ def main() -> int:
     try:
         if options.meshes is not None and not options.meshes.is_dir():
             raise InputError(f"--meshes {options.meshes}: there is no such folder; check the path")
-        for folder in (options.output, options.save_blend):
-            if folder is not None:
-                folder.mkdir(parents=True, exist_ok=True)
+        options.output.mkdir(parents=True, exist_ok=True)
         from figures.rendered import render_figures  # late: it takes Blender a second to start
 
         render_figures([name for name in ALL if name in options.only], options)

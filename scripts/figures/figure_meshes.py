@@ -98,12 +98,9 @@ class Model:
 class FigureMeshes:
     """Loads meshes, cubifies them, and makes groups for galleries."""
 
-    def __init__(
-        self, folder: Path | None, bar: ProgressBar, verbose: bool, is_rough: bool = False
-    ) -> None:
-        self.is_rough = is_rough
-        self.limit = {"max_iterations": ROUGH_ITERATIONS} if is_rough else {}
-        self._folder, self._bar, self._verbose = folder, bar, verbose
+    def __init__(self, folder: Path | None, bar: ProgressBar, is_rough: bool = False) -> None:
+        self._limit = {"max_iterations": ROUGH_ITERATIONS} if is_rough else {}
+        self._folder, self._bar = folder, bar
         self._model, self._solve = cache(self._load), cache(self._solve_now)
 
     def there(self, names: Sequence[str], instead: Sequence[str]) -> list[Model]:
@@ -132,7 +129,7 @@ class FigureMeshes:
         """
         radians = tuple(math.radians(angle) for angle in orientation)
         settings = Settings(
-            cubeness=cubeness, orientation=radians, space="OBJECT", **self.limit, **others
+            cubeness=cubeness, orientation=radians, space="OBJECT", **self._limit, **others
         )
         return self._solve(model.name, settings)
 
@@ -152,9 +149,7 @@ class FigureMeshes:
     def _load(self, name: str) -> Model:
         role, path, scene = ROLES[name], self._path(name), bpy.data.scenes.new(name)
         bpy.context.window.scene = scene
-        loaded = (
-            Loaded([role.source()]) if callable(role.source) else load(path, None, self._verbose)
-        )
+        loaded = Loaded([role.source()]) if callable(role.source) else load(path, None)
         bpy.context.view_layer.update()
         original = original_positions(loaded.objects[0].data)
         return Model(name, role, scene, loaded, path, original)

@@ -19,7 +19,7 @@ from cubic_craft.cubic_craft_addon.command_line.picture.render import render
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import furnish
 from cubic_craft.cubic_craft_addon.command_line.process.progress import ProgressBar
 
-from . import captures, cubeness, forms, handles, low_poly, orientations, rigs, teaser, uv_texture
+from . import handles, teaser, uv_texture, versions
 from .figure_meshes import FigureMeshes
 
 NOMINAL_WIDTH = 1600
@@ -37,17 +37,29 @@ class Figure:
     arrange: Callable[[list[Group], bpy.types.Scene, tuple[int, int]], Gallery] = arrange
 
 
+def _versions(*what, **how) -> Callable[[FigureMeshes], list[Group]]:
+    return lambda meshes: versions.compose(meshes, *what, **how)
+
+
 FIGURES = {
     "1": Figure("figure_1_teaser", teaser.compose, 860, teaser.in_two_rows),
     "2": Figure("figure_2_uv_texture", uv_texture.compose, 560),
     "3": Figure("figure_3_handles", handles.compose, 560),
-    "5": Figure("figure_5_cubeness", cubeness.compose, 460),
-    "6": Figure("figure_6_orientations", orientations.compose, 520),
-    "character": Figure("figure_character", cubeness.compose_character, 620),
-    "forms": Figure("figure_forms", forms.compose, 700),
-    "captures": Figure("figure_captures", captures.compose, 460),
-    "rigs": Figure("figure_rigs", rigs.compose, 520),
-    "low_poly": Figure("figure_low_poly", low_poly.compose, 520),
+    "5": Figure("figure_5_cubeness", _versions("bunny", "monkey", versions.by_cubeness), 460),
+    "6": Figure(
+        "figure_6_orientations",
+        _versions("bunny", "monkey", versions.by_orientation, has_original=False),
+        520,
+    ),
+    "character": Figure(
+        "figure_character", _versions("fox", "fox", versions.by_crispness, is_shaded=True), 620
+    ),
+    "forms": Figure(
+        "figure_forms",
+        _versions("bear", "bear", versions.by_form, has_original=False, is_shaded=True),
+        700,
+    ),
+    "captures": Figure("figure_captures", _versions("monkey", "monkey", versions.by_capture), 460),
 }
 
 
@@ -59,7 +71,7 @@ def render_figures(wanted: list[str], options: Namespace) -> None:
     """
     bar = ProgressBar()
     with registered():
-        meshes = FigureMeshes(options.meshes, bar, options.verbose, options.rough)
+        meshes = FigureMeshes(options.meshes, bar, options.rough)
         for number in wanted:
             with bar.task(f"figure {number}") as task:
                 path = render_figure(FIGURES[number], meshes, options)
@@ -68,22 +80,6 @@ def render_figures(wanted: list[str], options: Namespace) -> None:
 
 def render_figure(figure: Figure, meshes: FigureMeshes, options: Namespace) -> Path:
     """Render a figure as `render_figures` does, and return the path of the picture."""
-    gallery = _gallery(figure, meshes)
-    path = options.output / f"{figure.name}.png"
-    settings = {
-        **{name: getattr(options, name) for name in ("engine", "samples", "verbose")},
-        "resolution": (options.width, round(options.width * figure.height / NOMINAL_WIDTH)),
-        "turntable": 0,
-        "threads": None,  # all
-    }
-    list(render(gallery, [path], Namespace(**settings)))
-    if options.save_blend:
-        blend = str((options.save_blend / f"{figure.name}.blend").resolve())
-        bpy.data.libraries.write(blend, {gallery.scene}, fake_user=True)
-    return path
-
-
-def _gallery(figure: Figure, meshes: FigureMeshes) -> Gallery:
     groups = figure.compose(meshes)
     scene = scene_for_gallery()
     for group in groups:
@@ -91,4 +87,11 @@ def _gallery(figure: Figure, meshes: FigureMeshes) -> Gallery:
             scene.collection.objects.link(copy)
     gallery = figure.arrange(groups, scene, (NOMINAL_WIDTH, figure.height))
     furnish(gallery, NOMINAL_WIDTH / figure.height)
-    return gallery
+    path = options.output / f"{figure.name}.png"
+    settings = {
+        **{name: getattr(options, name) for name in ("engine", "samples")},
+        "resolution": (options.width, round(options.width * figure.height / NOMINAL_WIDTH)),
+        "turntable": 0,
+    }
+    list(render(gallery, [path], Namespace(**settings)))
+    return path

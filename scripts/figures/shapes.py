@@ -55,7 +55,7 @@ SMOOTHING = 6
 
 def monkey() -> bpy.types.Object:
     """Add Blender's monkey, subdivided."""
-    return load(None, None, verbose=False).objects[0]
+    return load(None, None).objects[0]
 
 
 def bear() -> bpy.types.Object:

@@ -21,7 +21,6 @@ def render_feature(_only: list[str] | None, samples: int) -> None:
     """Render shapes of our own in a row, and before them what becomes of them."""
     bar = ProgressBar()
     settings = {"samples": samples, "output": IMAGES, "width": WIDTH, "engine": "cycles"}
-    settings = Namespace(**settings, verbose=False, save_blend=None)
     with bar.task("feature") as task:
-        path = render_figure(FEATURE, FigureMeshes(None, bar, verbose=False), settings)
+        path = render_figure(FEATURE, FigureMeshes(None, bar), Namespace(**settings))
         task.finish(f"wrote {path}")

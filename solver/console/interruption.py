@@ -39,11 +39,6 @@ def end_on_signals(program: str, terminal: Callable[[], int] = lambda: 2) -> Non
     ).start()
 
 
-def end_with_input() -> None:
-    """From now on end, without a word, when standard input does: whoever holds it is gone."""
-    threading.Thread(target=_wait_for_end_of_input, daemon=True).start()
-
-
 def _wait_for_signal(arrivals: int, program: str, terminal: Callable[[], int]) -> None:
     while True:
         number = os.read(arrivals, 1)[0]
@@ -55,10 +50,3 @@ def _wait_for_signal(arrivals: int, program: str, terminal: Callable[[], int]) -
     os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # the progress bar draws itself, in a thread
     os.write(last_words, _CLEAN_LINE + line if os.isatty(last_words) else line)
     os._exit(128 + number)
-
-
-def _wait_for_end_of_input() -> None:
-    while os.read(0, 1):
-        pass
-    remove_temporaries()
-    os._exit(128 + signal.SIGTERM)

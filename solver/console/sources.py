@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
+from .many import in_words
 from .output import InputError
-from .report import in_words
 
 
 def listing(suffixes: Sequence[str]) -> str:
@@ -28,6 +28,20 @@ def check_source(path: Path, readable: Sequence[str]) -> None:
         raise InputError(f"{path}: there is no such file; check the path")
     if not path.is_file() and not path.is_dir():
         raise InputError(f"{path}: is a device or a pipe; give a file")
+
+
+def check_content(path: Path) -> None:
+    """Refuse a file that is empty or may not be read.
+
+    Raises InputError.
+    """
+    try:
+        with path.open("rb") as file:
+            is_empty = not file.read(1)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from None
+    if is_empty:
+        raise InputError(f"{path}: the file is empty; export it again")
 
 
 def find_sources(

@@ -2,7 +2,6 @@
 """The cases by name, and what is done with one: made, cubified by the operator, measured."""
 
 import functools
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
@@ -33,8 +32,6 @@ class Case:
     """How a mesh is made, and what is special about it."""
 
     make: Callable[[], list[bpy.types.Object]]
-    is_dressed: bool = False
-    """the first object is a closed body, and the others are around it"""
     options: dict = field(default_factory=dict)
     """of the operator"""
 
@@ -54,7 +51,7 @@ CASES = {
     "teapot": Case(art_meshes.teapot),
     "teapot_firm": Case(art_meshes.teapot, options={"solidity": 0.3}),
     "character": Case(art_character.character),
-    "clothes": Case(art_figure.dressed, is_dressed=True),
+    "clothes": Case(art_figure.dressed),
     "body": Case(art_figure.body),
     "skin": Case(art_character.skin),
     # as if they had no limbs, since those become boxes along themselves
@@ -109,7 +106,6 @@ class Outcome:
 
     rest: Surface
     after: Surface
-    seconds: float
     V: np.ndarray = field(init=False)
     """(n,3) positions at rest"""
     U: np.ndarray = field(init=False)
@@ -141,10 +137,6 @@ class Outcome:
     def volume_ratio(self):
         """Return the volume after, divided by that at rest."""
         return measures.volume(self.U, self.F) / measures.volume(self.V, self.F)
-
-    def crossings(self):
-        """Return the number of crossing pairs of triangles, at rest and after."""
-        return tuple(measures.crossings(self.V, X, self.F) for X in (self.V, self.U))
 
     def new_crossings(self):
         """Return the number of triangles that cross others, and did not at rest."""
@@ -188,11 +180,9 @@ def cubified(objects, **options):
     """Run Cubify on objects and return the Outcome; what the operator does not know is left out."""
     rest = surface_of(objects)
     select(objects)
-    begin = time.perf_counter()
     done = bpy.ops.cubic_craft.cubify(**known(options))
-    seconds = time.perf_counter() - begin
     assert done == {"FINISHED"}
-    return Outcome(rest, surface_of(objects), seconds)
+    return Outcome(rest, surface_of(objects))
 
 
 @functools.cache

@@ -106,23 +106,6 @@ def paint(obj, name, weights):
         group.add(np.flatnonzero(weights == weight).tolist(), float(weight), "REPLACE")
 
 
-def unpainted(objects, name):
-    """Return which vertices (n,) of all objects have no weight in the group; none without one."""
-    return np.concatenate(
-        [_without_weight(obj, obj.vertex_groups.get(name or "")) for obj in objects]
-    )
-
-
-def _without_weight(obj, group):
-    if group is None:
-        return np.zeros(len(obj.data.vertices), dtype=bool)
-    in_group = [
-        [own.weight for own in vertex.groups if own.group == group.index]
-        for vertex in obj.data.vertices
-    ]
-    return np.array([not any(weights) for weights in in_group])
-
-
 def material(number):
     """Return a material of a colour of its own, for the pictures."""
     name = f"Part {number}"

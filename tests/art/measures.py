@@ -141,15 +141,6 @@ def volume(U, F):
     return float(np.sum(a * np.cross(b, c)) / 6)
 
 
-def is_closed(V, F):
-    """Return whether each edge has a triangle at both of its sides, seams welded."""
-    corners = welded(V, F)
-    ways = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
-    there, count = np.unique(ways, axis=0, return_counts=True)
-    back, count_back = np.unique(ways[:, ::-1], axis=0, return_counts=True)
-    return np.array_equal(there, back) and np.array_equal(count, count_back)
-
-
 def share_inside(points, V, F):
     """Return the share of points (k,3) inside a closed surface, which may cross itself.
 
@@ -188,11 +179,6 @@ def share_behind(points, V, F):
 def movement(V, U, of=slice(None)):
     """Return how far the vertices of a subset moved at most."""
     return float(np.linalg.norm(U[of] - V[of], axis=1).max() / size_of(V))
-
-
-def crossings(V, U, F):
-    """Return how many pairs of triangles cross that do not meet in a vertex at rest."""
-    return len(_crossing_pairs(V, U, F))
 
 
 def new_crossings(V, U, F):

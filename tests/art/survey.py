@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Put meshes as artists have them through Cubify and print what became of them.
+"""Draw meshes as artists have them: as they are, as in the paper, and as Cubify makes them.
 
-survey.py [CASE or FILE ...] [--cubeness C ...] [--paper] [--pictures FOLDER]
+survey.py FOLDER [CASE or FILE ...] [--cubeness C] [--set NAME=VALUE ...]
 
 Without names all cases are done. A case is a name of `art_cases.CASES`; a file .obj, .ply or .glb.
+All pictures are on sheet.png, too. What is measured of the cases is in the tests.
 """
 
 import argparse
 import contextlib
 import io
 import sys
+from argparse import Namespace
 from functools import partial
 from pathlib import Path
 
@@ -17,91 +19,54 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(ROOT / "scripts")]
 
 import bpy  # noqa: E402
-import measures  # noqa: E402
-import survey_pictures  # noqa: E402
+import numpy as np  # noqa: E402
 from art_cases import CASES, PAPER, Case, cubified  # noqa: E402
-from art_objects import unpainted  # noqa: E402
+from art_objects import material  # noqa: E402
+from mathutils import Matrix  # noqa: E402
 
 from cubic_craft import registered  # noqa: E402
+from cubic_craft.cubic_craft_addon.command_line.picture import gallery, render, studio  # noqa: E402
 
-COLUMNS = (
-    # heading, width
-    ("case", -16),
-    ("lam", 5),
-    ("vertices", 9),
-    ("parts", 6),
-    ("angle", 14),
-    ("ratio", 6),
-    ("drift %", 8),
-    ("seat %", 7),
-    ("tear %", 7),
-    ("turn", 10),
-    ("shift %", 8),
-    ("still %", 8),
-    ("volume", 7),
-    ("inside %", 12),
-    ("crossings", 12),
-    ("seconds", 8),
-)
 IMPORTERS = {".obj": "obj_import", ".ply": "ply_import"}
+RESOLUTION = (900, 330)
+SAMPLES = 24
+FINISHES = ("clay", "grey", "teal")
+COLUMNS = 2
+"""of the sheet"""
 
 
 def main():
-    """Print a row for each case and cubeness."""
-    options = _arguments()
-    with registered():
-        print(_line([heading for heading, _ in COLUMNS]))
-        for name in options.cases or CASES:
-            for cubeness in options.cubeness:
-                _survey(name, cubeness, options)
-    if options.pictures:
-        survey_pictures.write_sheet(options.written, options.pictures / "sheet.png")
-
-
-def _arguments():
+    """Draw each case, and the sheet of all."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
+    parser.add_argument("folder", type=Path, help="of the pictures")
     parser.add_argument("cases", nargs="*", metavar="CASE", help=", ".join(CASES))
-    parser.add_argument("--cubeness", type=float, nargs="+", default=[0.4])
-    parser.add_argument("--paper", action="store_true", help="the settings of the paper")
-    parser.add_argument(
-        "--set", nargs="+", default=[], metavar="NAME=VALUE", help="of the operator"
-    )
-    parser.add_argument(
-        "--pictures", type=Path, metavar="FOLDER", help="as PNG, and all on a sheet"
-    )
+    parser.add_argument("--cubeness", type=float, default=0.4)
+    parser.add_argument("--set", nargs="+", default=[], metavar="NAME=VALUE", help="of Cubify")
     options = parser.parse_args()
-    options.written = []
-    for name in options.cases:
-        if name not in CASES and not Path(name).is_file():
-            parser.error(f"{name}: neither a case nor a file")
-    return options
-
-
-def _survey(name, cubeness, options):
-    case = CASES.get(name) or Case(partial(_load, Path(name)))
-    asked = {"cubeness": cubeness, **case.options, **(PAPER if options.paper else {})}
-    asked |= dict(map(_setting, options.set))
-    if options.pictures:
-        *_, paper = _cubified(case, asked | PAPER)
-    objects, is_still, outcome = _cubified(case, asked)
-    short = name if name in CASES else Path(name).stem
-    print(_line(_row(short, cubeness, case, outcome, is_still)), flush=True)
-    if options.pictures:
-        path = options.pictures / f"{short}_{cubeness:g}.png"
-        shapes = {"as it is": paper.rest, "as in the paper": paper.after, "now": outcome.after}
-        survey_pictures.render(objects, shapes, path)
-        options.written.append(path)
+    options.folder.mkdir(parents=True, exist_ok=True)
+    given, written = dict(map(_setting, options.set)), []
+    with registered():
+        for name in options.cases or CASES:
+            case = CASES.get(name) or Case(partial(_load, Path(name)))
+            asked = {"cubeness": options.cubeness, **case.options, **given}
+            _, paper = _cubified(case, asked | PAPER)
+            objects, now = _cubified(case, asked)
+            path = options.folder / f"{Path(name).stem}.png"
+            shapes = {"as it is": paper.rest, "as in the paper": paper.after, "now": now.after}
+            _draw(objects, shapes, path)
+            print(path, flush=True)
+            written.append(path)
+    _write_sheet(written, options.folder / "sheet.png")
 
 
 def _cubified(case, asked):
-    """Return the objects of a case in a file of their own, what stays, and what came out."""
+    """Return the objects of a case in a file of their own, and what came out."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     with contextlib.redirect_stdout(io.StringIO()):
         objects = case.make()
-        is_still = unpainted(objects, case.options.get("map_group"))
-        return objects, is_still, cubified(objects, **asked)
+        return objects, cubified(objects, **asked)
 
 
 def _setting(text):
@@ -120,38 +85,54 @@ def _load(path):
     return [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
 
 
-def _row(name, cubeness, case, outcome, is_still):
-    V, U, F = outcome.V, outcome.U, outcome.F
-    rest, after = outcome.angle()
-    inside = "-"
-    if case.is_dressed:
-        inside = " -> ".join(f"{100 * share:.1f}" for share in outcome.inside())
-    return [
-        name,
-        f"{cubeness:g}",
-        f"{len(V)}",
-        f"{measures.part_of(V, F)[0]}",
-        f"{rest:.1f} -> {after:.1f}",
-        f"{after / rest:.2f}" if rest > 1e-3 else "-",
-        f"{100 * outcome.drift():.2f}",
-        f"{100 * outcome.seat():.2f}",
-        f"{100 * measures.tear(V, U):.2f}",
-        f"{measures.turn(V, U):.1f} ({measures.turn(V, U, F):.1f})",
-        f"{100 * measures.shift(V, U, F):.2f}",
-        f"{100 * measures.movement(V, U, is_still):.2f}" if is_still.any() else "-",
-        f"{outcome.volume_ratio():.2f}" if measures.is_closed(V, F) else "-",
-        inside,
-        "{} -> {}".format(*outcome.crossings()),
-        f"{outcome.seconds:.1f}",
+def _draw(objects, surfaces, path):
+    """Write a picture of surfaces of the objects, which are the values of their labels."""
+    scene = gallery.scene_for_gallery()
+    size = gallery.extent_of(next(iter(surfaces.values())).V)
+    places = [Matrix()] * len(objects)
+    groups = [
+        gallery.Group(label, _copies(objects, surface, scene), places, surface.V, size, finish)
+        for (label, surface), finish in zip(surfaces.items(), FINISHES, strict=True)
     ]
+    bpy.context.view_layer.update()
+    arranged = gallery.arrange(groups, scene, RESOLUTION)
+    studio.furnish(arranged, RESOLUTION[0] / RESOLUTION[1])
+    how = {"engine": "cycles", "resolution": RESOLUTION, "samples": SAMPLES, "turntable": 0}
+    list(render.render(arranged, [path], Namespace(**how)))
 
 
-def _line(cells):
-    widths = [width for _, width in COLUMNS]
-    return "  ".join(
-        cell.ljust(-width) if width < 0 else cell.rjust(width)
-        for cell, width in zip(cells, widths, strict=True)
-    )
+def _copies(objects, surface, scene):
+    """Return copies with the surface's positions in world space."""
+    copies = []
+    for number, obj in enumerate(objects):
+        mesh = obj.data.copy()
+        if len(objects) > 1 and not mesh.materials:
+            mesh.materials.append(material(number))
+        V = surface.V[surface.owner == number].astype(np.float32)
+        mesh.vertices.foreach_set("co", V.ravel())
+        mesh.update()
+        copy = bpy.data.objects.new(obj.name, mesh)
+        scene.collection.objects.link(copy)
+        copies.append(copy)
+    return copies
+
+
+def _write_sheet(paths, path):
+    """Write pictures of one size as one, row by row."""
+    width, height = RESOLUTION
+    rows = -(-len(paths) // COLUMNS)
+    sheet = np.ones((rows, height, COLUMNS, width, 4), np.float32)  # the lowest row first
+    for number, single in enumerate(paths):
+        image = bpy.data.images.load(str(single))
+        pixels = np.empty(4 * width * height, np.float32)
+        image.pixels.foreach_get(pixels)
+        row, column = divmod(number, COLUMNS)
+        sheet[rows - 1 - row, :, column] = pixels.reshape(height, width, 4)
+        bpy.data.images.remove(image)
+    image = bpy.data.images.new("Sheet", COLUMNS * width, rows * height)
+    image.pixels.foreach_set(sheet.ravel())
+    image.filepath_raw, image.file_format = str(path), "PNG"
+    image.save()
 
 
 if __name__ == "__main__":

@@ -51,7 +51,7 @@ def test_options_of_the_command_line_are_there(page):
 def options_of_headless():
     script = ROOT / "scripts" / HEADLESS[0]
     text = subprocess.run(
-        [sys.executable, script, "--help-all"], capture_output=True, text=True, check=True
+        [sys.executable, script, "--help"], capture_output=True, text=True, check=True
     ).stdout
     return set(re.findall(r"--[a-z-]+", text))
 

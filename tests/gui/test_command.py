@@ -57,29 +57,27 @@ def test():
 def check_help(folder):
     output, _ = ended(start(folder, "--help"), 0)
     assert "usage: blender -c cubic_craft [INPUT ...] [options]" in output
-    assert "--cubeness" in output and "--tolerance" not in output
+    assert "--cubeness" in output and "--tolerance" in output
     _, errors = ended(start(folder, "none.obj"), 2)
     assert "cubic_craft: error: none.obj: there is no such file; check the path\n" in errors
 
 
 def check_one_file(folder):
-    """Let the engine solve the monkey, also in a process with a limit, and render a picture."""
+    """Let the engine solve the monkey, and render a picture."""
     ended(start(folder, *QUICK, "m.obj", "--report", "m.json"), 0)
     expected = os.environ.get("EXPECT_DEVICE")
     report = json.loads((folder / "m.json").read_text())
     assert expected in (None, report["device"]), report["device"]
-    ended(start(folder, *QUICK, "limited.obj", "--timeout", str(SECONDS)), 0)
-    assert (folder / "limited.obj").read_bytes() == (folder / "m.obj").read_bytes()
     ended(start(folder, "a.obj", "--output", "a.png", "--samples", "1"), 0)
     assert (folder / "a.png").stat().st_size
 
 
 def check_a_batch(folder):
-    """Give each file a Blender of its own, whose result the next batch keeps."""
+    """Do what can be done, which the next batch keeps."""
     files = ("a.obj", "b.obj", "broken.ply", "--output-folder", "out", *QUICK, ".obj")
-    for status in ("done", "kept"):
+    for kept in (0, 2):
         _, errors = ended(start(folder, *files), 3)
-        assert f"2 {status}, 1 failed" in errors
+        assert "1 of 3 files failed" in errors and errors.count(": kept") == kept
     assert sorted(path.name for path in folder.glob("out/*.obj")) == ["a.obj", "b.obj"]
 
 

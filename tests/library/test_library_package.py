@@ -2,17 +2,13 @@
 """What is in the wheel: the files of the solver, under another name."""
 
 import ast
-import doctest
-import inspect
 import pydoc
 import re
 import subprocess
 import sys
 from importlib.metadata import distribution, files, requires, version
 from pathlib import Path
-from typing import get_origin, get_type_hints
 
-import numpy as np
 import pytest
 from documents import examples, run_example
 
@@ -130,48 +126,6 @@ def test_the_page_lists_the_options_of_the_command():
     forms = re.search(r"--form \{([a-z,]+)\}", text)[1].split(",")
     row = next(row for row in rows if row.startswith("| `--form NAME`"))
     assert [f"`{name}`" in row for name in forms] == [True] * len(forms)
-
-
-@pytest.mark.parametrize(
-    ("function", "returned"),
-    [
-        (cubic_craft.stylize, cubic_craft.Result),
-        (cubic_craft.run, cubic_craft.Result),
-        (cubic_craft.rest_mesh, cubic_craft.RestMesh),
-        (cubic_craft.Run.result, cubic_craft.Result),
-        (cubic_craft.auto_orient, np.ndarray),
-        (cubic_craft.Setup.__init__, None),
-        (cubic_craft.Stylization.__init__, None),
-    ],
-)
-def test_annotations_are_complete_and_can_be_evaluated(function, returned):
-    hints = get_type_hints(function)
-    found = hints.pop("return", None)
-    assert (get_origin(found) or found) == returned
-    assert set(hints) == set(inspect.signature(function).parameters) - {"self"}
-
-
-PUBLIC = [
-    name
-    for name in cubic_craft.__all__
-    if callable(value := getattr(cubic_craft, name))
-    and ">>>" in (inspect.getdoc(value) or "")
-    and not value.__module__.startswith(BACKENDS)  # depends on the machine
-]
-
-
-def test_no_docstring_imports_the_solver():
-    assert not [name for name in PUBLIC if "from solver" in getattr(cubic_craft, name).__doc__]
-
-
-@pytest.mark.thorough(2)  # tests/docs runs all of them, with the names of the source
-@pytest.mark.parametrize("name", PUBLIC)
-def test_the_example_of_a_docstring_runs_as_it_is_installed(name):
-    text = inspect.getdoc(getattr(cubic_craft, name))
-    runner = doctest.DocTestRunner()
-    runner.run(doctest.DocTestParser().get_doctest(text, {}, name, None, None))
-    failed, tried = runner.summarize()
-    assert tried and not failed
 
 
 @pytest.mark.parametrize(("page", "title"), examples("cubic_craft"), ids=str)

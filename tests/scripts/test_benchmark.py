@@ -6,8 +6,7 @@ import pytest
 from scripts.benchmark import page, runs, shapes
 from scripts.benchmark.meshes import keep
 
-NOTHING = {"machine": "A machine.", "runs": 3, "ten": [], "pymeshlab": [], "scaling": []}
-NOTHING |= {"defaults": []}
+NOTHING = {"machine": "A machine.", "runs": 3, "pymeshlab": [], "defaults": []}
 
 
 def run(speed=1.0, reason="converged", **others):
@@ -18,11 +17,8 @@ def run(speed=1.0, reason="converged", **others):
 
 HEAD = {"mesh": "horse", "vertices": 48_485, "cubeness": 0.4}
 OURS = {"ours": [run(), run(3.0), run(2.0)]}
-TEN = {"mesh": "bunny", "vertices": 6172, "seconds": [0.3, 0.1, 0.2], "reading": [0.01]}
 RESULTS = NOTHING | {
-    "ten": [TEN, TEN | {"mesh": "blob"}],
     "pymeshlab": [HEAD | OURS | {"pymeshlab": [{"seconds": 80.0, "energy": 1.5}]}],
-    "scaling": [HEAD | OURS | {"peak": 300 * 1024**2, "above": 100 * 1024**2}],
     "defaults": [HEAD | {"paper": [run(0.2)], "defaults": [run(0.24, "limit", solved=51_000)]}],
 }
 
@@ -40,9 +36,7 @@ def rows_of(results):
 @pytest.mark.parametrize(
     ("section", "cells"),
     [
-        ("Ten iterations", "bunny | 6,172 | 0.01 | 0.2 | 3.55 | 27.6 | 17.7 | 138"),
         ("Beside PyMeshLab", "horse | 48,485 | 0.4 | 80 | 1.50000 | 1 | 80 | 10 | 1.00000 | 8"),
-        ("Time over size", "48,485 | 0.2 | 2,450 | 10 | 4 | 300 | 100"),
         (
             "With the defaults",
             "horse | 48,485 | 0.4 | 51,000 | 1 | 4 | 0.02 | 1.2 | 4, cut off | 0.024 | 1.2",
@@ -55,7 +49,6 @@ def test_a_row_of_each_table(section, cells):
 
 def test_what_has_not_been_measured_has_no_row():
     assert rows_of(NOTHING) == {}
-    assert "-" in rows_of(RESULTS)["Ten iterations"][1], "the paper has no such mesh"
 
 
 def test_the_first_time_counts_and_the_median_needs_every_run():

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The examples for clusters and engines; there is none here, and a shell stands in for it."""
+"""The example for clusters; there is none here, and a shell stands in for it."""
 
-import json
 import os
 import subprocess
 import sys
@@ -51,16 +50,3 @@ def test_a_task_of_an_array_job_does_what_the_command_does(folder):
     headless_ok("in/it's $HOME.obj", *QUICK, *outputs, cwd=folder)
     done, expected = folder / "jobs" / "it's $HOME.obj", folder / "expected.obj"
     assert done.read_bytes() == expected.read_bytes()
-
-
-def test_the_way_from_a_folder_to_an_engine(folder):
-    script = FARMS.parent / "engine" / "folder_to_engine.py"
-    arguments = ("in", "assets", "--no-render", *QUICK)
-    variables = {"BLENDER": str(folder / "blender")}
-    code, words = run(sys.executable, script, *arguments, cwd=folder, **variables)
-    assert code == 3, words
-    assert "Broken.obj: holds only meshes without faces" in words
-    listed = json.loads((folder / "assets" / "assets.json").read_text())
-    names = [f"it's $HOME{end}.glb" for end in ("", "_lod1", "_lod2", "_lod3")]
-    assert listed == {"it's $HOME.obj": names}
-    assert all((folder / "assets" / name).stat().st_size for name in names)

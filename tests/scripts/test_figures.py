@@ -23,9 +23,6 @@ HEIGHTS = {
     "figure_6_orientations": 520,
     "figure_forms": 700,
     "figure_captures": 460,
-    "figure_rigs": 520,
-    "figure_low_poly": 520,
-    "figure_targets": 560,
 }
 """of a picture of 1600 pixels"""
 RED, GREEN, BLUE = range(3)
@@ -45,12 +42,10 @@ def figures(*arguments):
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """Folder with all rendered figures and the scenes that they show."""
+    """Folder with all rendered figures."""
     folder = tmp_path_factory.mktemp("figures")
     size = ("--rough", "--width", WIDTH, "--samples", 1)
-    names = ("character", "forms", "captures", "rigs", "low_poly")
-    folders = ("--output", folder, "--save-blend", folder)
-    process = figures("--only", 1, 2, 3, 5, 6, *names, *size, *folders)
+    process = figures(*size, "--output", folder)
     assert process.returncode == 0, process.stderr
     return folder
 
@@ -74,9 +69,6 @@ def test_each_picture_has_its_size_and_shows_something(pictures, name):
     [
         *("figure_1_teaser", "figure_5_cubeness", "figure_6_orientations", "figure_forms"),
         "figure_captures",
-        "figure_rigs",
-        "figure_low_poly",
-        "figure_targets",
     ],
 )
 def test_cubic_meshes_are_green_and_touch_no_border(pictures, name):

@@ -15,7 +15,7 @@ from tests import frozen
 
 FROZEN = Path(__file__).with_name("frozen_options.json")
 COMMANDS = {
-    "blender": (of_blender._parser("command", is_whole=True), of_blender.parse),
+    "blender": (of_blender._parser("command"), of_blender.parse),
     "library": (of_library._parser(), of_library.parse),
 }
 FILES = {"blender": "--no-render --report r.json", "library": "a.obj b.obj"}

@@ -84,7 +84,7 @@ def test_stopped_before_a_file_is_in_its_place(tmp_path, suffix, number):
 def test_stopped_while_a_picture_is_rendered(tmp_path, number):
     picture = tmp_path / "picture.png"
     picture.write_bytes(OLD)
-    lasting = ("--samples", "65536", "--resolution", "1600", "540", "--threads", "1")
+    lasting = ("--samples", "65536", "--resolution", "1600", "540")
     process = start(tmp_path, *lasting, "--output", picture.name, "--save-mesh", "mesh.obj")
     wait_until(process, lambda: (tmp_path / "mesh.obj").exists())
     begin = processor_seconds(process.pid)

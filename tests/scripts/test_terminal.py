@@ -50,16 +50,7 @@ def test_a_batch_shows_names_with_brackets_as_they_are(tmp_path):
     code, shown = in_terminal(*arguments, cwd=tmp_path)
     assert code == 0, shown
     assert HIDE in shown and shown.rindex(SHOW) > shown.rindex(HIDE)
-    assert shown.count(b"[red]a [b].obj") >= 2, "in the bar, and in its line"
-
-
-def test_ctrl_c_in_a_batch_leaves_one_line_and_a_cursor(tmp_path):
-    (tmp_path / "a.obj").write_text(CUBE)
-    arguments = (".", "--output-folder", "out", *MESHES)
-    code, shown = in_terminal(*arguments, cwd=tmp_path, interrupt_at=b"a.obj")
-    assert code == 130, shown
-    assert HIDE in shown and shown.rindex(SHOW) > shown.rindex(HIDE)
-    assert shown.endswith(b"headless_render.py: interrupted\r\n")
+    assert shown.count(b"[red]a [b].obj") >= 2, "in the line of the file, and of what is written"
 
 
 def test_ctrl_c_while_one_file_is_solved_leaves_a_cursor(tmp_path):

@@ -26,8 +26,6 @@ SHELL = {"system", "popen", "execv", "execve", "spawnl", "spawnv"}
 # Where something of this kind is done with names of our own, never with the artist's data.
 COMMAND_LINE = "cubic_craft_addon/command_line"
 ALLOWED = {
-    (f"{COMMAND_LINE}/batch/task.py", "subprocess"),  # the command itself, once per file
-    (f"{COMMAND_LINE}/process/child.py", "subprocess"),  # the same, and what may crash
     ("solver/__init__.py", "import_module"),  # its own modules, at their first use
     ("operators/__init__.py", "import_module"),  # its own files
     ("solver/optional_packages.py", "import_module"),  # packages named in our code

@@ -10,31 +10,25 @@ from ..process.output_files import check_writable, meshes, numbered
 from .formats import ANIMATED, FOR_ENGINES, READABLE, WRITABLE
 
 
-def check_single(options: Namespace) -> None:
-    """Check what concerns a run with one file, and fill in what it writes.
+def check(options: Namespace) -> None:
+    """Check inputs, outputs and how options go together, and fill in what one file writes.
 
-    Raises InputError: the input, an output path, or how options go together.
+    Of a batch, what is wrong inside a file is found when its turn comes. Raises InputError.
     """
-    for option in ("jobs", "force", "recursive", "only"):
-        if getattr(options, option):
-            raise InputError(f"--{option}: is for several files; add --output-folder DIR")
-    check_form(options)
+    _check_forms(options)
     _check_bake(options)
     _check_is_something_to_do(options)
-    if not options.no_render and options.output is None:
-        options.output = Path("cubic_craft.png")
-    if options.input is not None:
-        _check_input(options.input)
-    options.save_mesh = Path(options.save_mesh) if options.save_mesh is not None else None
-    _check_outputs(options)
+    inputs = options.inputs
+    if options.output_folder or len(inputs) > 1 or any(path.is_dir() for path in inputs):
+        _check_batch(options)
+    else:
+        _check_single(options)
+    if options.report:
+        _check_suffix("--report", options.report, (".json",))
 
 
-def check_form(options: Namespace) -> None:
-    """Check that a form that is made from a file has one and no other has, and FACES directions.
-
-    Raises InputError: it has none, the directions are missing, or the file cannot be read, or that
-    of the normal capture.
-    """
+def _check_forms(options: Namespace) -> None:
+    """Check that a form that is made from a file has one and no other has, and FACES directions."""
     needs_file = options.form in ("object", "directions")
     if needs_file and options.form_object is None:
         raise InputError(
@@ -42,64 +36,17 @@ def check_form(options: Namespace) -> None:
         )
     if options.form == "faces" and not options.form_directions.strip():
         raise InputError('--form faces: give its directions, --form-directions "0 0 1, 1 0 0"')
-    if options.form_object is not None:
-        if not needs_file:
-            raise InputError("--form-object: is for --form object and --form directions")
-        _check_input(options.form_object)
-    if options.capture is not None:
-        _check_input(options.capture)
-
-
-def check_batch(options: Namespace) -> None:
-    """Check what concerns a batch; what is wrong inside a file is found when its turn comes.
-
-    Raises InputError: an input, an output, or how options go together.
-    """
-    folder, report = options.output_folder, options.report
-    if folder is None:
-        what = f"{options.inputs[0]}: is a folder" if len(options.inputs) == 1 else "several files"
-        raise InputError(f"{what}: name a folder for the results, --output-folder DIR")
-    for is_wrong, message in (
-        (
-            options.output,
-            "--output: is for one file; in --output-folder pictures are named as their inputs",
-        ),
-        (options.part, "--part: is for one file"),
-        (not options.inputs, "--output-folder: give the files, or a folder that holds them, first"),
-    ):
-        if is_wrong:
-            raise InputError(message)
-    check_form(options)
-    _check_bake(options)
-    _check_is_something_to_do(options)
-    for path in options.inputs:  # a slip of the pen, of which one would hear at the very end
-        if not path.is_dir():
-            check_source(path, READABLE)
-    if options.save_mesh is not None:
-        _check_ending("--save-mesh", options.save_mesh)
-        _check_mesh(options, Path(f"name{options.save_mesh}"))
-    if options.bake is not None:
-        _check_ending("--bake", str(options.bake))
-    if folder.exists() and not folder.is_dir():
-        raise InputError(f"--output-folder {folder}: this is a file; give a folder")
-    if report:
-        _check_suffix("--report", report, (".json",))
-        if report.parent.resolve() != folder.resolve():  # which is made later
-            check_writable("--report", [report])
-
-
-def refuse_empty(path: Path) -> None:
-    """Refuse a file without content, before Blender starts for it."""
-    if not path.stat().st_size:
-        raise InputError(f"{path}: the file is empty; export it again")
+    if options.form_object is not None and not needs_file:
+        raise InputError("--form-object: is for --form object and --form directions")
+    for path in filter(None, (options.form_object, options.capture)):
+        check_source(path, READABLE)
 
 
 def _check_bake(options: Namespace) -> None:
     """Check what concerns an animation; it is the only thing that is written then."""
     if not options.bake:
-        for option in ("frames", "part"):
-            if getattr(options, option):
-                raise InputError(f"--{option}: is for --bake FILE")
+        if options.frames:
+            raise InputError("--frames: is for --bake FILE")
         return
     for option in ("output", "save_mesh", "turntable", "with_modifiers"):
         if getattr(options, option):
@@ -111,8 +58,6 @@ def _check_bake(options: Namespace) -> None:
         raise InputError("--cubeness: an animation has one; run once for each")
     if options.frames and options.frames[0] > options.frames[1]:
         raise InputError("--frames: the last frame comes before the first")
-    if options.part and options.part[0] > options.part[1]:
-        raise InputError("--part: there is no such part; give its number, then how many there are")
     options.no_render = True
 
 
@@ -123,6 +68,58 @@ def _check_is_something_to_do(options: Namespace) -> None:
         raise InputError("--no-render: does not go together with --output or --turntable; drop one")
     if options.no_render and not (options.save_mesh or options.bake or options.report):
         raise InputError("--no-render: nothing to write; add --save-mesh FILE or --report FILE")
+
+
+def _check_batch(options: Namespace) -> None:
+    folder, report = options.output_folder, options.report
+    if folder is None:
+        what = f"{options.inputs[0]}: is a folder" if len(options.inputs) == 1 else "several files"
+        raise InputError(f"{what}: name a folder for the results, --output-folder DIR")
+    if options.output:
+        raise InputError(
+            "--output: is for one file; in --output-folder pictures are named as their inputs"
+        )
+    if not options.inputs:
+        raise InputError("--output-folder: give the files, or a folder that holds them, first")
+    for path in options.inputs:  # a slip of the pen, of which one would hear at the very end
+        if not path.is_dir():
+            check_source(path, READABLE)
+    if options.save_mesh is not None:
+        _check_ending("--save-mesh", options.save_mesh)
+        _check_mesh(options, Path(f"name{options.save_mesh}"))
+    if options.bake is not None:
+        _check_ending("--bake", str(options.bake))
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"--output-folder {folder}: this is a file; give a folder")
+    if report and report.parent.resolve() != folder.resolve():  # which is made later
+        check_writable("--report", [report])
+
+
+def _check_single(options: Namespace) -> None:
+    for option in ("force", "recursive"):
+        if getattr(options, option):
+            raise InputError(f"--{option}: is for several files; add --output-folder DIR")
+    options.input = options.inputs[0] if options.inputs else None
+    if options.input is not None:
+        check_source(options.input, READABLE)
+    outputs: dict[str, list[Path]] = {}
+    if not options.no_render:
+        options.output = options.output or Path("cubic_craft.png")
+        _check_suffix("--output", options.output, (".png",))
+        outputs["--output"] = numbered(options.output, options.turntable)
+    if options.save_mesh is not None:
+        options.save_mesh = Path(options.save_mesh)
+        _check_mesh(options, options.save_mesh)
+        outputs["--save-mesh"] = meshes(options.save_mesh, options.cubeness, options.low_poly)
+    for option, path in (("--bake", options.bake), ("--report", options.report)):
+        if path:
+            outputs[option] = [path]
+    sources = (options.input, options.handles_file, options.form_object, options.capture)
+    for option, paths in outputs.items():
+        check_writable(option, paths)
+        for source in filter(None, sources):
+            if source.resolve() in (path.resolve() for path in paths):
+                raise InputError(f"{option} {source}: this is the input; give another name")
 
 
 def _check_suffix(option: str, path: Path, allowed: tuple[str, ...]) -> None:
@@ -144,32 +141,3 @@ def _check_ending(option: str, ending: str) -> None:
             f"{option} {ending}: with several files give how the names of the results shall "
             f"end, such as {example}"
         )
-
-
-def _check_input(path: Path) -> None:
-    check_source(path, READABLE)
-    try:
-        with path.open("rb"):
-            pass
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-
-
-def _check_outputs(options: Namespace) -> None:
-    outputs: dict[str, list[Path]] = {}
-    if options.output:
-        _check_suffix("--output", options.output, (".png",))
-        outputs["--output"] = numbered(options.output, options.turntable)
-    if options.save_mesh:
-        _check_mesh(options, options.save_mesh)
-        outputs["--save-mesh"] = meshes(options.save_mesh, options.cubeness, options.low_poly)
-    if options.bake:
-        outputs["--bake"] = [options.bake]
-    if options.report:
-        _check_suffix("--report", options.report, (".json",))
-        outputs["--report"] = [options.report]
-    for option, paths in outputs.items():
-        check_writable(option, paths)
-        for source in (options.input, options.handles_file, options.capture):
-            if source is not None and source.resolve() in (path.resolve() for path in paths):
-                raise InputError(f"{option} {source}: this is the input; give another name")

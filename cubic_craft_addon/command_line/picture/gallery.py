@@ -18,7 +18,6 @@ from ....solver.console.output import InputError
 from ... import mesh_bridge
 from ..solving.cubify_all import Sculpture
 from ..writing.detached import detached_copy
-from .best_side import best_yaw
 
 SIZE = 2.0
 """largest extent of the original in the gallery; everything else is measured by it"""
@@ -118,7 +117,7 @@ def _groups(sculptures: list[Sculpture], options: Namespace, scene: bpy.types.Sc
     versions = [("original", None)]
     versions += [(f"cubeness {value!r}", number) for number, value in enumerate(options.cubeness)]
     turn = Euler([math.radians(angle) for angle in options.turn]).to_matrix().to_4x4()
-    groups, yaw = [], YAW if options.view is None else math.radians(options.view)
+    groups, yaw = [], math.radians(options.view)
     for label, number in versions:
         copies, places = [], []
         for sculpture in sculptures:
@@ -134,8 +133,6 @@ def _groups(sculptures: list[Sculpture], options: Namespace, scene: bpy.types.Sc
         bpy.context.view_layer.update()
         if groups:
             _check_seen(sculptures, groups[0].copies, copies)
-        elif options.view is None:
-            yaw = best_yaw(copies, places, YAW, ELEVATION)
         points = np.concatenate([_points(*pair) for pair in zip(copies, places, strict=True)])
         extent = groups[0].extent if groups else extent_of(points)
         finish = "clay" if number is None else "teal"

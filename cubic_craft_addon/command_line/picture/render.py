@@ -29,7 +29,7 @@ def render(gallery: Gallery, paths: list[Path], options: Namespace) -> Iterator[
     for number, path in enumerate(paths):
         for turntable, angle in zip(gallery.turntables, begin, strict=True):
             turntable.rotation_euler.z = angle + math.tau * number / len(paths)
-        with captured(options.verbose), replacing(path) as temporary:
+        with captured(), replacing(path) as temporary:
             _render_still(scene, temporary.resolve(), options.engine)
         yield path
 
@@ -46,9 +46,6 @@ def _set_up(scene: bpy.types.Scene, options: Namespace) -> None:
     settings.image_settings.compression = 90
     settings.use_persistent_data = options.turntable > 1
     settings.use_file_extension = False
-    if options.threads:
-        settings.threads_mode = "FIXED"
-        settings.threads = options.threads
     if options.engine == "cycles":
         _set_up_cycles(scene, options.samples)
     else:

@@ -34,13 +34,8 @@ class Task:
 class ProgressBar:
     """Shows steps; with rich (which comes with Taichi and Quadrants) and a terminal as moving bars.
 
-    A silent one says only what must be read. What remains is estimated from some seconds of the
-    past.
+    What remains is estimated from the last 30 seconds.
     """
-
-    def __init__(self, is_silent: bool = False, memory: float = 30.0) -> None:
-        self._is_silent = is_silent
-        self._memory = memory
 
     @contextlib.contextmanager
     def task(self, title: str) -> Iterator[Task]:
@@ -51,9 +46,7 @@ class ProgressBar:
             from rich.progress import Progress
 
             console = Console(stderr=True)
-            with Progress(
-                console=console, transient=True, speed_estimate_period=self._memory
-            ) as bar:
+            with Progress(console=console, transient=True, speed_estimate_period=30.0) as bar:
                 task = Task(partial(bar.update, bar.add_task("", total=1.0)), escape)
                 task.describe(title)
                 yield task
@@ -63,11 +56,6 @@ class ProgressBar:
         self.say(f"{title}: {task.summary}")
 
     def say(self, line: str) -> None:
-        """Print one line about how far the run is."""
-        if not self._is_silent:
-            self.warn(line)
-
-    def warn(self, line: str) -> None:
-        """Print one line that must be read."""
+        """Print one line."""
         # at once with its end: else a signal in between puts its own words into the same line
         print(f"{line}\n", end="", file=sys.stderr, flush=True)

@@ -12,11 +12,13 @@ import tempfile
 from collections.abc import Iterator
 
 _terminals = [2]
+_verbose = [False]
 
 
 def mute_stdout(verbose: bool) -> None:
-    """Send all later standard output to nowhere, or to standard error if ``verbose``."""
+    """Send all later standard output to nowhere; if `verbose`, show it all, on standard error."""
     sys.stdout.flush()
+    _verbose[:] = [verbose]
     if verbose:
         os.dup2(2, 1)
         return
@@ -31,9 +33,9 @@ def terminal() -> int:
 
 
 @contextlib.contextmanager
-def captured(verbose: bool) -> Iterator[None]:
-    """Swallow standard error during the block, or let it through if ``verbose``."""
-    if verbose:
+def captured() -> Iterator[None]:
+    """Swallow standard error during the block, unless all is shown (see `mute_stdout`)."""
+    if _verbose[0]:
         yield
         return
     sys.stderr.flush()

@@ -20,13 +20,13 @@ class FormMesh(NamedTuple):
     """(m,3) int"""
 
 
-def read_form(path: Path, verbose: bool) -> FormMesh:
+def read_form(path: Path) -> FormMesh:
     """Read the meshes of a file; Blender is empty afterwards.
 
     Raises InputError: the file cannot be read, or holds no mesh.
     """
     points, triangles, count = [], [], 0
-    for obj in load(path, None, verbose).objects:
+    for obj in load(path, None).objects:
         mesh = obj.data
         mesh.calc_loop_triangles()
         matrix = np.array(obj.matrix_world)

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ....solver.console.output import InputError
+from ....solver.console.sources import check_content
 from ...mesh_bridge import read_position
 from ..process.quiet import captured
 from .finite_check import refuse_infinite
@@ -82,7 +83,6 @@ def empty_blender() -> None:
 def load(
     path: Path | None,
     name: str | None,
-    verbose: bool,
     *,
     is_seen: bool = False,
     is_all_seen: bool = True,
@@ -93,7 +93,6 @@ def load(
     ----------
     path : the file, or None for the monkey
     name : only the object of this name
-    verbose : show what Blender prints
     is_seen : take what is seen in place of the meshes of the file
     is_all_seen : not only of those meshes whose modifiers hide what they are
 
@@ -109,10 +108,11 @@ def load(
     """
     if path is None:
         return Loaded(_choose([_monkey()], name, "Blender's monkey"))
+    check_content(path)
     layout = read_layout(path) if path.suffix.lower() == ".obj" else None
     if path.suffix.lower() in (".ply", ".stl"):
         refuse_infinite(path)
-    with captured(verbose):
+    with captured():
         _import(path, layout)
         bpy.context.view_layer.update()
     covered = []

@@ -14,7 +14,6 @@ from ....solver.console.output import InputError, replacing
 from ....solver.errors import CubicCraftError
 from ...animation.bake import Bake, BakeOptions
 from ...animation.exchange import export_frames
-from ...animation.parts import part_of
 from ...handles import Handle
 from ...settings.values import Settings
 from ..process.progress import ProgressBar
@@ -41,8 +40,7 @@ def bake_frames(loaded: Loaded, options: Namespace, bar: ProgressBar) -> dict[st
     """Bake the frames to the file of ``--bake``, and return what there is to report.
 
     What is solved stays in a folder beside the file until that is written: a run that was ended
-    continues there, and one with ``--part`` leaves it for the one that writes. While another run
-    is there with the same frames, this one waits, and continues if that was ended.
+    continues there.
 
     Raises InputError: the file cannot be written; CubicCraftError: an object or a setting cannot be
     used in some frame.
@@ -56,11 +54,9 @@ def bake_frames(loaded: Loaded, options: Namespace, bar: ProgressBar) -> dict[st
     folder = path.with_name(f"{path.name}.unfinished")
     given = _Given(loaded, options, handles_of_all(loaded, options))
     count = len(range(start, end + 1))
-    part = part_of(count, *options.part) if options.part else None
-    bake_options = BakeOptions(start, end, folder, is_patient=True, part=part)
-    work = Bake(given, loaded.objects, bake_options)
+    work = Bake(given, loaded.objects, BakeOptions(start, end, folder))
     try:
-        with bar.task(f"{len(part or range(count))} frames") as task:
+        with bar.task(f"{count} frames") as task:
             for step in work.steps():
                 task.describe(step.texts[-1])
                 task.advance_to(step.factor)
@@ -68,25 +64,23 @@ def bake_frames(loaded: Loaded, options: Namespace, bar: ProgressBar) -> dict[st
             task.describe("frames")
             task.finish(summary)
         found = [result.frames for result in work.results]
-        if problems and (part is not None or found != [count] * len(loaded.objects)):
+        if problems and found != [count] * len(loaded.objects):
             raise CubicCraftError("; ".join(problems))
-        if part is not None:
-            return {"frames": [start + part.start, start + part.stop - 1], "objects": []}
-        _export(path, work.baked, (start, end), options.verbose)
+        _export(path, work.baked, (start, end))
         for obj in work.baked:
             _cache_of(obj).unlink()
     finally:
         work.discard()
-    with contextlib.suppress(OSError):  # another run waits in it
+    with contextlib.suppress(OSError):  # something else is in it
         folder.rmdir()
     bar.say(f"wrote {path}")
     for problem in problems:  # of all frames: how steady they are
-        bar.warn(problem)
+        bar.say(problem)
     return {"frames": [start, end], "objects": [vars(found) for found in work.results]}
 
 
-def _export(path, baked, frames, verbose):
-    with captured(verbose), replacing(path) as temporary:
+def _export(path, baked, frames):
+    with captured(), replacing(path) as temporary:
         if path.suffix == ".pc2":
             shutil.copyfile(_cache_of(baked[0]), temporary)
         else:

@@ -5,18 +5,15 @@ import contextlib
 import importlib.metadata
 import platform
 from argparse import Namespace
-from pathlib import Path
 from typing import Any
 
 import bpy
 import numpy as np
 
 from ....solver.console.method_options import names_of_options
-from ....solver.console.report import write_json
 from ....solver.method import Advanced, Kept, KeptInScene, Style, StyleInScene
 from ...environment.requirements import new_engine_warnings
 from ...run.pipeline import MemberProblem, Solution
-from ..process.output_files import written
 from ..process.version import version
 from ..solving.cubify_all import Sculpture
 
@@ -27,19 +24,23 @@ SETTINGS = {
 OPTIONAL_PACKAGES = ("taichi", "quadrants", "scipy", "cholespy", "pyamg")
 
 
-def write_report(
-    path: Path, about: dict[str, Any], options: Namespace, seconds: dict[str, float]
-) -> None:
-    """Write the report as JSON.
+def report_of(
+    about: dict[str, Any], options: Namespace, seconds: dict[str, float]
+) -> dict[str, Any]:
+    """Return all that there is to report of a run.
 
     `about`: from `about_sculptures` or `bake_frames`. `seconds`: what "load", "write", "render" or
     "bake" took, and "total".
     """
-    report = {**_head(options), **about, "seconds": seconds}
-    if options.worker:  # what tells a batch whether outputs are still of this run
-        sizes = {path.name: path.stat().st_size for path in written(options)}
-        report["made"] = {"for": options.worker.key, "sizes": sizes}
-    write_json(path, report)
+    settings = {name: getattr(options, name) for name in sorted(SETTINGS)}
+    strength = options.capture_strength if options.capture else None
+    return {
+        "versions": _versions(),
+        "notices": new_engine_warnings(),
+        "settings": {**settings, "capture_strength": strength},
+        **about,
+        "seconds": seconds,
+    }
 
 
 def about_sculptures(sculptures: list[Sculpture], cubeness: list[float]) -> dict[str, Any]:
@@ -47,16 +48,6 @@ def about_sculptures(sculptures: list[Sculpture], cubeness: list[float]) -> dict
     return {
         "device": sculptures[0].solutions[0].result.device,
         "objects": [_object(sculpture, cubeness) for sculpture in sculptures],
-    }
-
-
-def _head(options: Namespace) -> dict[str, Any]:
-    settings = {name: getattr(options, name) for name in sorted(SETTINGS)}
-    strength = options.capture_strength if options.capture else None
-    return {
-        "versions": _versions(),
-        "notices": new_engine_warnings(),
-        "settings": {**settings, "capture_strength": strength},
     }
 
 

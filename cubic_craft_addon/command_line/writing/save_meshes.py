@@ -27,7 +27,7 @@ LEAST = 12
 
 
 def save_meshes(
-    paths: list[Path], sculptures: list[Sculpture], loaded: Loaded, levels: list[int], verbose: bool
+    paths: list[Path], sculptures: list[Sculpture], loaded: Loaded, levels: list[int]
 ) -> list[str]:
     """Save one file per cubeness, and each level of detail of it.
 
@@ -44,27 +44,27 @@ def save_meshes(
         target = target_of(path.suffix)
         kind = TARGETS[target]
         if target == "BLEND":
-            _save_blend(path, sculptures, number, verbose)
+            _save_blend(path, sculptures, number)
         elif kind.is_for_engines or kind.is_printed:
             _write_results(sculptures, number)
             users = [user for sculpture in sculptures for user in sculpture.users]
-            problems += _send(path, users, verbose)
+            problems += _send(path, users)
             for place, triangles in zip(leveled(path, len(levels)), levels, strict=True):
-                with captured(verbose), low_poly(sculptures, triangles, place) as (low, own):
-                    problems += own + _send(place, low, verbose)
+                with captured(), low_poly(sculptures, triangles, place) as (low, own):
+                    problems += own + _send(place, low)
         else:
             if target == "OBJ":
                 _check_rows(path, sculptures, loaded)
             with _copies(sculptures, number) as copies:
-                _export(path, copies, verbose)
+                _export(path, copies)
     return problems
 
 
-def _send(path: Path, objects: list[bpy.types.Object], verbose: bool) -> list[str]:
+def _send(path: Path, objects: list[bpy.types.Object]) -> list[str]:
     """Write objects as Send does, but with the unit of the file; return what should be known."""
     options = Options(scale=1.0)
     with refusals_of(path), ready(target_of(path.suffix), objects, options) as it:
-        _write(path, lambda filepath: it.write(Path(filepath)), verbose)
+        _write(path, lambda filepath: it.write(Path(filepath)))
     return [f"{path}: {problem}" for problem in it.problems]
 
 
@@ -73,14 +73,14 @@ def _write_results(sculptures: list[Sculpture], number: int) -> None:
         pipeline.write(sculpture.object, sculpture.solutions[number], "MESH")
 
 
-def _save_blend(path: Path, sculptures: list[Sculpture], number: int, verbose: bool) -> None:
+def _save_blend(path: Path, sculptures: list[Sculpture], number: int) -> None:
     _write_results(sculptures, number)
-    _write(path, partial(bpy.ops.wm.save_as_mainfile, copy=True), verbose)
+    _write(path, partial(bpy.ops.wm.save_as_mainfile, copy=True))
 
 
-def _write(path: Path, writer: Callable[..., Any], verbose: bool) -> None:
+def _write(path: Path, writer: Callable[..., Any]) -> None:
     has_own_name = path.suffix.lower() == ".usdz"  # so that its layer has it, not that of our file
-    with captured(verbose), replacing(path, has_own_name) as temporary:
+    with captured(), replacing(path, has_own_name) as temporary:
         try:
             writer(filepath=str(temporary.resolve()))
         except RuntimeError as error:
@@ -124,16 +124,16 @@ def _check_rows(path: Path, sculptures: list[Sculpture], loaded: Loaded) -> None
                 raise InputError(f"{message} (invalid faces?); repair the file, or save a .blend")
 
 
-def _export(path: Path, copies: list[bpy.types.Object], verbose: bool) -> None:
+def _export(path: Path, copies: list[bpy.types.Object]) -> None:
     for obj in bpy.context.view_layer.objects:
         obj.select_set(obj in copies)
     target, options = target_of(path.suffix), Options(with_animation=False, suffix=path.suffix)
     chosen = settings(target, copies, options, is_modified=False)
     export = partial(exporter(target), **chosen)
     if target == "OBJ":
-        _write(path, lambda filepath: write_obj(path, Path(filepath), copies, export), verbose)
+        _write(path, lambda filepath: write_obj(path, Path(filepath), copies, export))
     else:
-        _write(path, export, verbose)
+        _write(path, export)
 
 
 @contextlib.contextmanager

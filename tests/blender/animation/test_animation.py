@@ -268,8 +268,8 @@ def recorded(extension, part, tmp_path):
     turns = np.tile(np.eye(3), (3, 1, 1))
     state = solver.SequenceState(*(np.zeros(3) for _ in solver.SequenceState._fields))
 
-    def make(frames, part_of=None):
-        recording = part("animation.recording").Recording(tmp_path / "R", {}, 3, part_of)
+    def make(frames):
+        recording = part("animation.recording").Recording(tmp_path / "R", {}, 3)
         known = recording.count
         for number in frames:
             positions = np.full((3, 3), float(number))
@@ -295,15 +295,6 @@ def test_frames_that_are_not_those_saved_are_solved_again(recorded, tmp_path):
     assert recorded([0]) == (0, [0.0])
     (tmp_path / "R" / "state.npz").write_bytes(b"PK half of it")
     assert recorded([0]) == (0, [0.0])
-
-
-def test_parts_are_taken_over_where_they_follow_and_are_whole(recorded, tmp_path):
-    recorded([0, 1], range(0, 2))
-    recorded([1, 2, 3], range(1, 4))  # of which one frame is known
-    recorded([4, 5], range(4, 6))
-    path = tmp_path / "R.part_0000004_0000006" / "frames.f32"
-    path.write_bytes(path.read_bytes()[::-1])
-    assert recorded([9]) == (4, [0.0, 1.0, 2.0, 3.0, 9.0])
 
 
 def test_a_mesh_that_changes_its_vertices_is_baked_until_then(extension, bending, tmp_path):
@@ -396,16 +387,6 @@ def test_the_memory_is_the_same_for_any_number_of_frames(extension, part, tmp_pa
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[1] < 1.5 * peaks[0]
-
-
-def test_a_part_begins_with_the_last_frames_in_which_something_moves(part):
-    parts = part("animation.parts")
-    moving = [f"frame {number}" for number in range(20)]
-    assert parts.LEAD_IN == 8
-    assert parts.lead_in(moving) == 12
-    assert parts.lead_in([*moving[:12], *[moving[11]] * 8]) == 4, "where nothing moves, none counts"
-    assert parts.lead_in(moving[:8]) == parts.lead_in([]) == 0
-    assert [list(parts.part_of(5, number, 2)) for number in (1, 2)] == [[0, 1], [2, 3, 4]]
 
 
 def test_a_point_cache_that_was_cut_off_is_refused(part, tmp_path):
