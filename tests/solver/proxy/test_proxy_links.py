@@ -15,12 +15,12 @@ from solver.mesh.cotangents import cotangents
 from solver.mesh.rest_measures import areas_and_normals
 from solver.mesh.spokes_and_rims import spokes_and_rims
 from solver.mesh.triangles import Triangles
-from solver.preparation import links_within
 from solver.proxy.closest_point import closest_points
 from solver.proxy.links import Links, links_between, links_to_triangles
 from solver.proxy.neighbors import neighbor_links
 from solver.proxy.thickness import outward_sign
 from solver.proxy.through import links_through
+from solver.surface.preparation import links_within
 
 
 def mixed_links(V):
