@@ -78,6 +78,7 @@ CONTENT = {
     "noise as .blend": (["noise.blend"], ["noise.blend", "cannot be read"]),
     "noise as .glb": (["noise.glb"], ["noise.glb", "cannot be read"]),
     "noise as .usdc": (["noise.usdc"], ["noise.usdc", "cannot be read"]),
+    "Alembic cut off": (["cut.abc"], ["cut.abc", "crashes Blender"]),
     "no faces": (["points.obj"], ["points.obj", "without faces"]),
     "not a number": (["nan.obj"], ["nan.obj", "vertex 3", "finite"]),
     "infinite binary .ply": (["inf.ply"], ["inf.ply", "vertex 2", "finite"]),
@@ -101,12 +102,12 @@ CONTENT = {
 }
 
 
-ALONE = ("input last", "noise as .blend", "noise as .usdc")
+ALONE = ("input last", "noise as .blend", "noise as .usdc", "Alembic cut off")
 """cases for a process of its own, which might crash or speak at its end; `test_corpus` has more"""
 
 
 @pytest.fixture
-def folder(tmp_path):
+def folder(tmp_path, inputs):
     (tmp_path / "ok.obj").write_text(TRIANGLE)
     (tmp_path / "ok.xyz").write_text("0 0 0\n")
     (tmp_path / "ok").write_text(TRIANGLE)
@@ -123,6 +124,8 @@ def folder(tmp_path):
     (tmp_path / "text.stl").write_text(STL)
     for name in ("noise.stl", "noise.blend", "noise.glb", "noise.usdc"):
         (tmp_path / name).write_bytes(bytes(range(7, 207)) * 5)
+    whole = (inputs / "awkward.abc").read_bytes()
+    (tmp_path / "cut.abc").write_bytes(whole[: len(whole) // 2])
     (tmp_path / "folder.obj").mkdir()
     (tmp_path / "folder.png").mkdir()
     return tmp_path

@@ -17,6 +17,7 @@ from ..process.quiet import captured
 from .finite_check import refuse_infinite
 from .obj_layout import ObjLayout, match_objects, read_layout
 from .seen_objects import is_in_picture, show_as_meshes
+from .trial import refuse_crashing
 from .weld import weld
 
 LEVELS_OF_MONKEY = 2
@@ -112,6 +113,7 @@ def load(
     layout = read_layout(path) if path.suffix.lower() == ".obj" else None
     if path.suffix.lower() in (".ply", ".stl"):
         refuse_infinite(path)
+    refuse_crashing(path, _importer(path))
     with captured():
         _import(path, layout)
         bpy.context.view_layer.update()
