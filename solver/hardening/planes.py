@@ -71,14 +71,14 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim
     thick = np.bincount(region, graph.areas * thickness, count) / np.maximum(area, _LEAST)
     shares = np.where(has_one, _nearness(distance, area, tilted, thick), 0.0)
     kept = np.flatnonzero(is_whole[region])
-    of, at = np.divmod(
-        np.unique(np.repeat(region[kept].astype(np.int64), 3) * n + F[kept].ravel()), n
-    )
+    numbers = np.repeat(region[kept].astype(np.int64), 3) * n + F[kept].ravel()
+    of, at = np.divmod(np.unique(numbers), n)
     away = offsets[of] - _dots(normals[of], U[at] - heights[at, None] * facing[of])
     normals, shares = normals[of], shares[of]
-    if rims is not None and len(rims[0]):
-        of_rims = _of_rims(U, *rims)
-        parts = (of, at, normals, shares, away), (count + rims[1], rims[0], *of_rims)
+    if rims is not None and np.isin(rims[0], at).any():
+        of_rims = count + rims[1], rims[0], *_of_rims(U, *rims)
+        is_of_side = np.isin(rims[0], at)
+        parts = (of, at, normals, shares, away), (x[is_of_side] for x in of_rims)
         of, at, normals, shares, away = (np.concatenate(each) for each in zip(*parts, strict=True))
     moves, flat = _to_planes(n, at, normals, shares, away)
     is_edge = np.bincount(at, minlength=n)[at] > 1
