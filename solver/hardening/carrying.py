@@ -14,7 +14,8 @@ STILL = 0.005, 0.055
 """in the unit box: how far from what is fixed or would cross nothing goes to planes, or all does"""
 _MASS = 1e-3  # of the links of a part: the lighter of two goes along, and what is fixed stays
 _FIXED = 1e3  # times the area of all
-_NEAREST = 6  # places of what would cross that take others along
+_PLACES = 256  # at most, of what would cross, that others are taken along by
+_BLOCK = 2048
 _POINT = 1e-6
 
 
@@ -55,18 +56,30 @@ def away_from(U, vertices, times=1.0):
     return smoothstep(far, *np.multiply(STILL, times))
 
 
-def together(U, pairs, moves):
+def together(U, pairs, moves, part, is_asked):
     """Return how far (n,3) what is near things that would come to cross goes along with them.
 
-    Each group of these goes as one, by the mean of its moves. `U`, `moves`: (n,3). `pairs`: (k,6)
-    int, corners of two triangles each.
+    Each group of these of two parts goes as one, by the mean of its moves, and one of a part, as a
+    fold, stays; between groups, as Shepard's interpolation of their places has it. `U`, `moves`:
+    (n,3). `pairs`: (k,6) int, corners of two triangles each. `part`: (n,) int. `is_asked`: (n,)
+    bool, the vertices that it is asked for.
     """
     at, number = np.unique(pairs, return_inverse=True)
     count, group = components(number.reshape(pairs.shape), len(at))
     sums = np.stack([np.bincount(group, column, count) for column in moves[at].T], axis=1)
     means = sums / np.bincount(group, minlength=count)[:, None]
-    count = min(_NEAREST, len(at))
-    distance, nearest = (x.reshape(-1, count) for x in KDTree(U[at]).query(U, count))
-    weights = 1.0 / np.maximum(distance, _POINT) ** 2
-    weights /= weights.sum(axis=1, keepdims=True)
-    return np.einsum("nk,nkj->nj", weights, means[group[nearest]])
+    first = np.full(count, -1)
+    first[group] = part[at]
+    means[np.bincount(group, part[at] != first[group], count) == 0] = 0.0
+    result = np.zeros_like(U)
+    step = -(-len(at) // _PLACES)
+    places, of_places = U[at[::step]], means[group[::step]]
+    asked = np.flatnonzero(is_asked)
+    for begin in range(0, len(asked), _BLOCK):
+        rows = asked[begin : begin + _BLOCK]
+        away = U[rows, None] - places
+        squares = np.maximum(np.einsum("nkj,nkj->nk", away, away), _POINT * _POINT)
+        weights = (squares.min(axis=1, keepdims=True) / squares) ** 2
+        result[rows] = weights @ of_places / weights.sum(axis=1, keepdims=True)
+    result[at] = means[group]
+    return result

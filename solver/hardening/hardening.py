@@ -124,8 +124,8 @@ class Hardening:
         """Return the same with the moves of the hard shape U (n,3) to the planes of its sides.
 
         Linked parts go along. Vertices `fixed` stay, with all around them, and what would come to
-        cross goes as one, with all around it. Where things `may_cross`, that is not looked for, nor
-        is it for two parts that cross before, but for those to be `apart`, (k,2) int.
+        cross stays or goes as one, with all around it. Where things `may_cross`, that is not looked
+        for, nor is it for two parts that cross before, but for those to be `apart`, (k,2) int.
         """
         base, rest = self.target.base, self.target.base.rest
         of_sides = self.side, self.target.directions, self.target.heights
@@ -152,7 +152,9 @@ class Hardening:
             if not len(crossing):
                 break
             share = np.minimum(share, away_from(before, F[crossing], GROWING**number))
-            as_one = together(before, F[known].reshape(-1, 6), X - before)
+            as_one = together(
+                before, F[known].reshape(-1, 6), X - before, rest.topology.part, share < free
+            )
             along = share[:, None] * of_parts + (free - share)[:, None] * as_one
             found = replace(found, flat=share * flat, moves=share[:, None] * moves, along=along)
             crossing = crossings.at(found.positions(U))

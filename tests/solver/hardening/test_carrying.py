@@ -34,11 +34,16 @@ def test_what_is_fixed_stays_and_takes_the_other_part_along():
     assert np.abs(along[is_knob]).max() < 1e-3
 
 
-def test_what_would_cross_goes_as_one():
+def test_two_parts_that_would_cross_go_as_one_and_folds_stay():
     U = np.random.default_rng(0).random((200, 3))
-    moves = U * [0.1, 0.0, 0.0]
-    pairs = np.arange(12).reshape(2, 6)
-    along = together(U, pairs, moves)
-    for k in range(2):  # which share no corner
-        np.testing.assert_allclose(along[pairs[k]], np.tile(moves[pairs[k]].mean(axis=0), (6, 1)))
-    assert along[:, 0].min() >= along[:12, 0].min() and along[:, 0].max() <= along[:12, 0].max()
+    moves = 0.1 + U * [0.1, 0.0, 0.0]
+    pairs, part = np.arange(12).reshape(2, 6), np.zeros(200, int)
+    part[:3] = 1
+    along = together(U, pairs, moves, part, np.ones(200, bool))
+    two, fold = pairs  # which share no corner
+    np.testing.assert_allclose(along[two], np.tile(moves[two].mean(axis=0), (6, 1)))
+    assert not along[fold].any()
+    rest = along[12:, 0] / along[two[0], 0]
+    assert rest.min() > 0.0 and rest.max() < 1.0 and np.ptp(rest) > 0.5
+    is_near = np.linalg.norm(U[12:, None] - U[two], axis=2).min(axis=1) < 0.1
+    assert rest[is_near].mean() > rest.mean() + 0.1
