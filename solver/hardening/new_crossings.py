@@ -21,7 +21,7 @@ class NewCrossings:
         (low, high), (other_low, other_high) = boxes(U, F), boxes(X, F)
         low, high = np.minimum(low, other_low), np.maximum(high, other_high)
         self._watched = Watched(F, low, high, is_moved, are_apart(faces, F))
-        self._part = None if part is None else part[F[:, 0]]
+        self._part = None if part is None else part[F[:, 0]].astype(np.int64)
         self._m, pairs = len(F), self._watched.crossings(U)
         self._before = self._keys(pairs)
         if self._part is not None:

@@ -24,10 +24,6 @@ _ALWAYS = (
     *((name, "_on_update") for name in ("depsgraph_update_post", "frame_change_post")),
     *((name, "_on_other_data") for name in ("undo_post", "redo_post")),
     ("load_post", "_forget"),
-    # forms of objects
-    ("depsgraph_update_post", "_on_update"),
-    *((name, "_forget") for name in ("frame_change_post", "undo_post", "redo_post")),
-    *((name, "_forget") for name in ("load_pre", "load_post")),
 )
 _IN_LIVE = (
     ("undo_post", "_on_undo"),
