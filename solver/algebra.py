@@ -46,6 +46,14 @@ def smoothstep(x, start, end):
     return t * t * (3.0 - 2.0 * t)
 
 
+def sums_by_group(vectors, group, count=0):
+    """Return the sums (count,d) of vectors (k,d) by their group (k,) int, for NumPy.
+
+    `count`: of the groups; at least up to the last one.
+    """
+    return np.stack([np.bincount(group, x, count) for x in vectors.T], axis=1)
+
+
 def by_columns(values):
     """Return a copy of numbers (n,), vectors (n,w) or matrices that lies as `from_columns` says."""
     return np.array(columns(values), order="C").T.reshape(values.shape)

@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from ..algebra import sums_by_group
 from ..global_step.aggregation import aggregates
 from ..mesh.triangles import distinct
 from ..optional_packages import optional_package
@@ -39,7 +40,7 @@ def contract(V, F, neighbors, part):
         return None
     number = np.cumsum(is_used) - 1
     sizes = np.bincount(group)
-    means = np.stack([np.bincount(group, x) / sizes for x in V.T], axis=1)
+    means = sums_by_group(V, group) / sizes[:, None]
     cluster = number[_nearest_used(group[F], is_used)[group]]
     return means[is_used], number[triangles], cluster
 

@@ -30,7 +30,6 @@ from ..proxy.sheets import is_ground
 from .crossings import DEPTH, crossings
 from .gaps import Gaps
 from .pairs import links_against, merged, mirrored
-from .polygons import are_apart
 from .push import heights, pushed
 from .riding import riding
 from .shown import shown
@@ -254,7 +253,7 @@ class KeepApart:
     def _amiss(self, pairs):
         """Return those of pairs (k,2) that are not where parts crossed, nor of one fold."""
         pairs = pairs[~are_where_parts_crossed(self._rest, pairs)]
-        apart = are_apart(self._rest.given_faces, self._shown) if len(pairs) else None
+        apart = self._rest.polygons_apart if len(pairs) else None
         return pairs if apart is None else pairs[apart(pairs)]
 
     def _are_of_two_parts(self, pairs):

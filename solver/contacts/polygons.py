@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which triangles are pieces of polygons that share no corner: how those are split is not seen."""
 
+from functools import partial
+
 import numpy as np
 import scipy.sparse as sp
 
@@ -14,9 +16,9 @@ def are_apart(faces, F):
     if faces is None:
         return None
     corners = sp.csr_matrix((np.ones(F.size, bool), (np.repeat(faces, 3), F.ravel())))
+    return partial(_share_none, corners, faces)
 
-    def apart(pairs):
-        one, other = (corners[faces[each]] for each in pairs.T)
-        return one.multiply(other).getnnz(axis=1) == 0
 
-    return apart
+def _share_none(corners, faces, pairs):
+    one, other = (corners[faces[each]] for each in pairs.T)
+    return one.multiply(other).getnnz(axis=1) == 0

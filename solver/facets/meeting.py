@@ -18,6 +18,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
+from ..algebra import sums_by_group
 from ..surface.details import unit
 
 STAY = 0.15
@@ -74,7 +75,7 @@ def _priors(C, areas, regions):
     """
     region, k = regions.of_triangle, len(regions.offsets)
     share = areas / np.maximum(regions.areas, np.finfo(float).tiny)[region]
-    middle = np.stack([np.bincount(region, share * x, k) for x in C.T], axis=1)
+    middle = sums_by_group(share[:, None] * C, region, k)
     least = np.eye(3)[np.abs(regions.normals).argmin(axis=1)]
     across = unit(np.cross(least, regions.normals))
     axes = np.stack([across, np.cross(regions.normals, across)], axis=1)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..algebra import sums_by_group
 from ..aliases import BoolArray, FloatArray, IntArray
 from ..hardening.sides import CURVED, NEVER, border_shares, settled_labels, straightened
 from ..surface.details import unit
@@ -176,7 +177,7 @@ def _planes(C, graph, region, side, ways):
     is_whole = common > WHOLE * np.bincount(side, graph.areas, len(ways))[keys % len(ways)]
     keys = keys[is_whole][np.argsort(common[is_whole], kind="stable")]  # the largest has its way
     weighted = graph.areas[:, None] * graph.normals
-    mean = unit(np.stack([np.bincount(region, x, count) for x in weighted.T], axis=1))
+    mean = unit(sums_by_group(weighted, region, count))
     faced = mean.copy()
     faced[keys // len(ways)] = ways[keys % len(ways)]
     normals = straightened(mean, faced)

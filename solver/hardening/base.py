@@ -47,6 +47,16 @@ class Base:
         """(m,) bool, the triangles that details tilt."""
         return (self.normals * self.graph.normals).sum(axis=1) < TILTED
 
+    @cached_property
+    def thickness(self):
+        """(m,) of the shape at the triangles, zero where there is none, and in sides that are flat.
+
+        So a roof of flat sides keeps its ridge, see `planes.py`.
+        """
+        rest = self.rest
+        counts = np.isfinite(rest.thickness) & ~rest.is_flat
+        return np.where(counts, rest.thickness, 0.0)[rest.F].mean(axis=1)
+
 
 def base_of(setup):
     """Return the Base of the rest shape of a Setup."""

@@ -7,7 +7,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.spatial import KDTree
 
-from ..algebra import smoothstep
+from ..algebra import smoothstep, sums_by_group
 from ..mesh.components import components
 
 STILL = 0.005, 0.055
@@ -66,8 +66,7 @@ def together(U, pairs, moves, part, is_asked):
     """
     at, number = np.unique(pairs, return_inverse=True)
     count, group = components(number.reshape(pairs.shape), len(at))
-    sums = np.stack([np.bincount(group, column, count) for column in moves[at].T], axis=1)
-    means = sums / np.bincount(group, minlength=count)[:, None]
+    means = sums_by_group(moves[at], group, count) / np.bincount(group)[:, None]
     first = np.full(count, -1)
     first[group] = part[at]
     means[np.bincount(group, part[at] != first[group], count) == 0] = 0.0

@@ -7,6 +7,7 @@ of that over all triangles is L x.
 
 import numpy as np
 
+from ..algebra import sums_by_group
 from ..mesh.spokes_and_rims import Pattern
 
 
@@ -31,7 +32,7 @@ class Corners:
         """Return the sums (n,d) of values (m,3,d) at the corners of each vertex."""
         at = self.F.ravel()
         flat = values.reshape(len(at), -1)
-        return np.stack([np.bincount(at, x, self.n) for x in flat.T], axis=1)
+        return sums_by_group(flat, at, self.n)
 
     def stiffness(self, weights):
         """Return sum_f w_f L_f, for weights (m,), as csr_matrix (n,n)."""

@@ -129,10 +129,7 @@ class Hardening:
         """
         base, rest = self.target.base, self.target.base.rest
         of_sides = self.side, self.target.directions, self.target.heights
-        counts = np.isfinite(rest.thickness) & ~rest.is_flat  # a roof of flat sides keeps its ridge
-        thickness = np.where(counts, rest.thickness, 0.0)[rest.F].mean(axis=1)
-        rims = open_rims(rest.V, base.graph, self.rotations)
-        of_shape = base.is_tilted, thickness, rims
+        of_shape = base.is_tilted, base.thickness, open_rims(rest.V, base.graph, self.rotations)
         moves, flat = flattening(U, rest.F, base.graph, *of_sides, *of_shape)
         moves *= smoothstep(self.asked, *FLAT)[:, None]
         nothing = np.zeros_like(moves)

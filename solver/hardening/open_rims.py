@@ -3,13 +3,14 @@
 
 import numpy as np
 
-from ..mesh.components import components
+from ..algebra import sums_by_group
 
 FLAT = 0.01
 """of the size of a rim: the root of the mean square of the distances from its plane at rest"""
 FEWEST = 8
 """vertices: what has fewer is a hole in a mesh"""
-_LEAST = 1e-12
+NO_RIMS = np.empty(0, np.intp), np.empty(0, np.intp), np.empty((0, 3))
+"""as of `open_rims`"""
 
 
 def open_rims(V, graph, R):
@@ -18,16 +19,9 @@ def open_rims(V, graph, R):
     The last is (r,3), unit vectors: the normals at rest, turned. `V`: (n,3), rest positions.
     `graph`: FaceGraph. `R`: (n,3,3), rotations.
     """
-    edges, none = graph.edges, np.empty(0, np.intp)
-    is_open = edges.uses == 1
-    if not is_open.any():
-        return none, none, np.empty((0, 3))
-    ends = np.stack([edges.lower[is_open], edges.upper[is_open]], axis=1)
-    at, number = np.unique(ends, return_inverse=True)
-    count, rim = components(number.reshape(ends.shape), len(at))
-    size = np.bincount(rim, minlength=count)
-    middle = np.stack([np.bincount(rim, x, count) / size for x in V[at].T], axis=1)
-    away = V[at] - middle[rim]
+    at, rim = graph.edges.rims
+    away, size = from_middles(V[at], rim)
+    count = len(size)
     spread = np.zeros((count, 3, 3))
     np.add.at(spread, rim, away[:, :, None] * away[:, None, :])
     values, vectors = np.linalg.eigh(spread)
@@ -40,3 +34,12 @@ def open_rims(V, graph, R):
     kept = np.flatnonzero(is_flat[rim])
     numbers = np.cumsum(is_flat) - 1
     return at[kept], numbers[rim[kept]], turned[is_flat] / length[is_flat, None]
+
+
+def from_middles(places, rim):
+    """Return vectors (k,3) to places from the middles of their rims (k,), and sizes (r,) of these.
+
+    The size is the number of places.
+    """
+    size = np.bincount(rim)
+    return places - (sums_by_group(places, rim) / size[:, None])[rim], size

@@ -11,7 +11,8 @@ dies away toward the middle of it.
 import numpy as np
 from scipy.spatial import KDTree
 
-from ..algebra import smoothstep
+from ..algebra import smoothstep, sums_by_group
+from .open_rims import NO_RIMS, from_middles
 
 NEAR = 0.01, 0.016
 """distance from the plane, the root of its mean square, relative to the root of the area: a side
@@ -36,7 +37,7 @@ _FAR = 10.0  # between regions, so that none is nearest to those of another
 _LEAST = 1e-12
 
 
-def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rims=None):
+def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rims=NO_RIMS):
     """Return how far vertices (n,3) have to move, and how far they belong to planes (n,), 0 to 1.
 
     Parameters
@@ -75,9 +76,9 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim
     of, at = np.divmod(np.unique(numbers), n)
     away = offsets[of] - _dots(normals[of], U[at] - heights[at, None] * facing[of])
     normals, shares = normals[of], shares[of]
-    if rims is not None and np.isin(rims[0], at).any():
+    is_of_side = np.isin(rims[0], at)
+    if is_of_side.any():
         of_rims = count + rims[1], rims[0], *_of_rims(U, *rims)
-        is_of_side = np.isin(rims[0], at)
         parts = (of, at, normals, shares, away), (x[is_of_side] for x in of_rims)
         of, at, normals, shares, away = (np.concatenate(each) for each in zip(*parts, strict=True))
     moves, flat = _to_planes(n, at, normals, shares, away)
@@ -93,19 +94,17 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim
 
 def _of_rims(U, at, rim, facing):
     """Return normals (k,3), shares (k,) and distances (k,) of the planes of rims, see `RIMS`."""
-    count = len(facing)
     normals, offsets, distance = _planes(U[at], np.ones(len(at)), rim, facing)
-    size = np.bincount(rim, minlength=count)
-    middle = np.stack([np.bincount(rim, x, count) / size for x in U[at].T], axis=1)
-    radius = np.sqrt(np.bincount(rim, ((U[at] - middle[rim]) ** 2).sum(axis=1), count) / size)
+    away, size = from_middles(U[at], rim)
+    radius = np.sqrt(np.bincount(rim, (away**2).sum(axis=1)) / size)
     shares = smoothstep(distance / np.maximum(radius, _LEAST), *RIMS[::-1])
     return normals[rim], shares[rim], offsets[rim] - _dots(normals[rim], U[at])
 
 
 def _facing(directions, areas, region, area):
     """Return the mean directions (r,3) of regions, as unit vectors, and whether they have one."""
-    sums = [np.bincount(region, areas * x, len(area)) for x in directions.T]
-    means = np.stack(sums, axis=1) / np.maximum(area, _LEAST)[:, None]
+    sums = sums_by_group(areas[:, None] * directions, region, len(area))
+    means = sums / np.maximum(area, _LEAST)[:, None]
     length = np.linalg.norm(means, axis=1)
     return means / np.maximum(length, _LEAST)[:, None], length > _ALIKE
 

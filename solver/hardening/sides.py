@@ -23,7 +23,7 @@ from functools import reduce
 import numpy as np
 import scipy.sparse as sp
 
-from ..algebra import smoothstep
+from ..algebra import smoothstep, sums_by_group
 from ..mesh.components import components
 from ..styles.forms import cube
 from ..surface.details import unit
@@ -173,7 +173,7 @@ def _stand_out(graph, is_sharp, part, count):
 def _are_planes(graph, part, count):
     """Return which parts (count,) of the triangles (m,) lie in one plane each."""
     weighted = graph.areas[:, None] * graph.normals
-    mean = unit(np.stack([np.bincount(part, x, count) for x in weighted.T], axis=1))
+    mean = unit(sums_by_group(weighted, part, count))
     worst = np.ones(count)
     np.minimum.at(worst, part, np.einsum("mj,mj->m", graph.normals, mean[part]))
     return worst > COPLANAR
@@ -284,7 +284,7 @@ def _leaning(graph, local, side, faced, form_of):
     is_same = (side[one] == side[other]) & (form_of[one] == form_of[other]) & (side[one] >= 0)
     count, region = graph.regions(is_same)
     weighted = graph.areas[:, None] * local
-    mean = unit(np.stack([np.bincount(region, x, count) for x in weighted.T], axis=1))[region]
+    mean = unit(sums_by_group(weighted, region, count))[region]
     return np.where(side[:, None] >= 0, straightened(mean, faced), 0.0)
 
 

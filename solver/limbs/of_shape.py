@@ -18,7 +18,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components, dijkstra
 
-from ..algebra import smoothstep
+from ..algebra import smoothstep, sums_by_group
 from ..aliases import FloatArray, IntArray
 from .limbs import Limbs, no_limbs
 
@@ -178,7 +178,7 @@ def skeleton_of(V, skin, links, part, normals, areas, walls=None):
     _, of_link = np.unique(keys, axis=0, return_inverse=True)
     of_link = of_link.ravel()
     count = np.bincount(of_link)
-    place = np.stack([np.bincount(of_link, x) for x in middle.T], axis=1) / count[:, None]
+    place = sums_by_group(middle, of_link) / count[:, None]
     thickness = np.bincount(of_link, t) / count
 
     of_end = np.full(len(V) + 1, -1)
@@ -389,7 +389,7 @@ def _tangents(places, number, share, count, axis):
     known = np.flatnonzero(weight > 0.0)
     if len(known) < 2:
         return np.tile(axis, (count, 1))
-    sums = np.stack([np.bincount(number, share * x, count) for x in places.T], axis=1)
+    sums = sums_by_group(share[:, None] * places, number, count)
     middles = sums[known] / weight[known, None]
     steps = np.diff(middles, axis=0)
     unit = steps / np.maximum(np.linalg.norm(steps, axis=1), 1e-12)[:, None]

@@ -5,6 +5,8 @@ from functools import cached_property
 
 import numpy as np
 
+from .components import components
+
 
 class Edges:
     """The edges of triangles F (m,3) between n vertices.
@@ -30,6 +32,13 @@ class Edges:
     def uses(self):
         """(e,) int, how many triangles have each edge: an open one has one."""
         return np.bincount(self.number.ravel())
+
+    @cached_property
+    def rims(self):
+        """The vertices (k,) int of open rims, ascending, and the number (k,) of the rim of each."""
+        ends = np.stack([self.lower, self.upper], axis=1)[self.uses == 1]
+        vertices, at = np.unique(ends, return_inverse=True)
+        return vertices, components(at.reshape(-1, 2), len(vertices))[1]
 
     def triangles(self):
         """Return pairs (k,) and (k,) of triangles that have an edge in common.

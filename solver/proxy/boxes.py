@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ..algebra import sums_by_group
 from ..mesh.rest_measures import triangle_areas_and_normals
 
 TOLERANCE = np.cos(np.radians(1.0))
@@ -77,7 +78,7 @@ def _most(of_face, area, unit, count):
     most = np.zeros(count)
     np.maximum.at(most, part, total)
     is_most = (total == most[part]) & (total > 0.0)
-    sums = np.stack([np.bincount(alike, area * x) for x in unit.T], axis=1)[is_most]
+    sums = sums_by_group(area[:, None] * unit, alike)[is_most]
     result = np.zeros((count, 3))
     result[part[is_most]] = sums / np.linalg.norm(sums, axis=1)[:, None]  # the last of equals
     return result

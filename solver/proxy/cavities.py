@@ -14,7 +14,6 @@ handles spread them.
 
 import numpy as np
 
-from ..mesh.components import components
 from .links import links_between
 from .nearest import Nearest
 from .thickness import FACING, STRENGTH, facing, facing_pairs
@@ -71,11 +70,7 @@ def _joined(pairs):
 
 def _openings(edges, part):
     """Return how many open rims each part has."""
-    is_rim = edges.uses == 1
-    vertices, ends = np.unique(
-        np.stack([edges.lower, edges.upper], axis=1)[is_rim], return_inverse=True
-    )
-    _, rim = components(ends.reshape(-1, 2), len(vertices))
+    vertices, rim = edges.rims
     _, first = np.unique(rim, return_index=True)
     return np.bincount(part[vertices[first]], minlength=int(part.max(initial=-1)) + 1)
 

@@ -21,8 +21,7 @@ As next to no vertex of the part lies inside the ball, a link does not cross ano
 
 import numpy as np
 
-from ..algebra import columns, dot
-from ..mesh.components import components
+from ..algebra import columns, dot, sums_by_group
 from .links import links_between
 from .nearest import Nearest
 from .samples import surface_samples
@@ -146,7 +145,7 @@ def outward_sign(triangles, part):
     faults = np.bincount(owner, is_fault, count) / np.maximum(
         np.bincount(owner, minlength=count), 1
     )
-    holes, volume_of_holes = _holes(V, *_border(edges, is_border), part, count)
+    holes, volume_of_holes = _holes(V, edges, is_border, part, count)
     of_face, face_areas = triangles.parts(part), triangles.areas
     area = np.bincount(of_face, face_areas, count)
     height = dot(*columns(V).take(triangles.F[:, 0], axis=1), *triangles.normals.T)
@@ -163,17 +162,12 @@ def _border(edges, is_border):
     return np.where(is_backward, upper, lower), np.where(is_backward, lower, upper)
 
 
-def _holes(V, start, end, part, count):
-    """Return area and volume (count,) of the fans that close the borders of each part.
-
-    `start`, `end`: (b,) int, ends of the border edges, in the direction of their triangles.
-    """
-    if not len(start):
-        return np.zeros(count), np.zeros(count)
-    _, loop = components(np.stack([start, end], axis=1), len(V))
-    loop = np.unique(loop[start], return_inverse=True)[1].ravel()
-    sizes = np.bincount(loop)
-    middle = np.stack([np.bincount(loop, x) / sizes for x in V[start].T], axis=1)[loop]
+def _holes(V, edges, is_border, part, count):
+    """Return area and volume (count,) of the fans that close the borders (e,) of each part."""
+    start, end = _border(edges, is_border)
+    vertices, rim = edges.rims
+    loop = rim[np.searchsorted(vertices, start)]
+    middle = (sums_by_group(V[start], loop) / np.bincount(loop)[:, None])[loop]
     a, b = V[end], V[start]  # against the direction of the triangles
     area = np.linalg.norm(np.cross(b - a, middle - a), axis=1) / 2.0
     volume = (a * np.cross(b, middle)).sum(axis=1) / 6.0

@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from ..algebra import sums_by_group
 from ..errors import CubicCraftError
 from .polytope import encloses_origin
 
@@ -24,7 +25,7 @@ def binned(normals, areas, bins):
     n, a = normals[is_there], areas[is_there]
     _, cell = np.unique(np.round(bins * n).astype(np.int64), axis=0, return_inverse=True)
     cell = cell.ravel()
-    sums = np.stack([np.bincount(cell, a * n[:, c]) for c in range(3)], axis=1)
+    sums = sums_by_group(a[:, None] * n, cell)
     return sums / np.linalg.norm(sums, axis=1, keepdims=True), np.bincount(cell, a)
 
 

@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..algebra import sums_by_group
 from ..aliases import FloatArray
 from ..errors import CubicCraftError
 from ..inputs import real_numbers, vectors
@@ -158,7 +159,7 @@ def _hull(d):
 def _merged(d, n):
     _, cell = np.unique(np.floor(d / _CELL).astype(np.int64), axis=0, return_inverse=True)
     cell = cell.ravel()
-    sums = [np.stack([np.bincount(cell, x) for x in values.T], axis=1) for values in (d, n)]
+    sums = [sums_by_group(values, cell) for values in (d, n)]
     is_usable = np.all([np.linalg.norm(x, axis=1) > _SMALLEST for x in sums], axis=0)
     return tuple(_unit(x[is_usable]) for x in sums)
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..aliases import BoolArray, FloatArray, IntArray
 from ..coarse_to_fine.contraction import contract
 from ..contacts.crossings import CrossingTriangles
+from ..contacts.polygons import are_apart
 from ..inputs import real_numbers
 from ..limbs import Limbs, limbs_of_shape, with_coverings, with_hollows, without_shells
 from ..limbs.covering import COVERING
@@ -342,6 +344,11 @@ class RestMesh(Value):
     def crosses_at_rest(self) -> CrossingTriangles:
         """Which triangles of the input cross others at rest."""
         return CrossingTriangles(self.V, self.shown)
+
+    @cached_property
+    def polygons_apart(self) -> Callable[[IntArray], BoolArray] | None:
+        """Which pairs of the triangles of the input are of polygons apart, as of `are_apart`."""
+        return are_apart(self.given_faces, self.shown)
 
     def with_links(self, links: Links) -> RestMesh:
         """Return the mesh with further links to neighbors."""
