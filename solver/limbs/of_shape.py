@@ -21,6 +21,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 from ..algebra import smoothstep, sums_by_group
 from ..aliases import FloatArray, IntArray
 from .limbs import Limbs, no_limbs
+from .rings import with_rings
 
 CELL = 0.35
 """of the thickness: midpoints in such a cell are one node,..."""
@@ -47,9 +48,10 @@ TAPER = 0.25
 """of the thickness per length: what tapers so goes on to its tip, where no ball has an end"""
 FAR = 8.0
 """thicknesses, of the thickest: beyond, distances along the graph are not asked for"""
-SHEET = 1.5
-"""widths: where what belongs to most nodes reaches farther across, they are on lines by chance,
-as on the rings of vertices of a wall"""
+AROUND = 0.04, 0.1
+"""of the squares of the normals across a limb, the least part to the largest: a wall, whose nodes
+are on lines by chance, as on its rings of vertices, has less than the first, as they face two ways;
+what has more than the second faces all ways around"""
 SHORT = 0.8
 """widths: a shorter piece belongs to the next one"""
 WIDEST, THIN, SIDES = 0.75, 0.7, 3
@@ -145,6 +147,8 @@ def _found_among(skeleton):
     piece, directions = _pieces(skeleton.graph, direction, confidence, width)
     if len(directions):
         piece, directions = _without_short(piece, directions, skeleton, width, distance)
+    if len(directions):
+        piece, directions = with_rings(piece, directions, skeleton.place, skeleton.graph)
         piece = _without_trunks(piece, len(directions), skeleton.graph, width)
         piece, directions = _cut(piece, directions, skeleton, confidence)
     shares = np.zeros((len(piece), len(directions)))
@@ -257,24 +261,24 @@ def _measured(skeleton):
     slope = np.abs((moment * axis).sum(axis=1)) / np.maximum(spread[:, 2] ** 2 / 12.0, 1e-12)
     for k in np.flatnonzero(slope > TAPER):
         length[k] = max(length[k], np.ptp(skeleton.reach[window[k] > 0.0] @ axis[k]))
-    own = smoothstep(length / width, NONE, FULL)
-    across = np.ptp(skeleton.reach @ axes[:, :, :2], axis=1).max(axis=1)
-    is_wide = window @ (across > SHEET * width) > 0.5 * total[:, 0]
-    own[is_wide] = 0.0
-    own[_is_open(skeleton, window, axis)] = 0.0
+    own = smoothstep(length / width, NONE, FULL) * _around(skeleton, window, axes)
     return axis, (window * own[:, None]).max(axis=0), width, distance
 
 
-def _is_open(skeleton, window, axis):
-    """Return around which nodes (m,) the surface does not go all around a line along axis (m,3).
+def _around(skeleton, window, axes):
+    """Return how far the surface goes all around a line along the last of axes (m,3,3), 0 to 1.
 
-    All its normals across the line would be in balance. Those of a flange are not.
+    All its normals across the line would be in balance. Those of a flange are not. And they would
+    face all ways: those of a wall do not, see `AROUND`.
     """
     facing, spread = window @ skeleton.facing, window @ skeleton.spread.reshape(-1, 9)
-    across = facing - (facing * axis).sum(axis=1)[:, None] * axis
-    squares = np.einsum("mi,mij,mj->m", across, spread.reshape(-1, 3, 3), across)
-    length = np.linalg.norm(across, axis=1)
-    return length**3 > OPEN * squares
+    across = axes[:, :, :2].swapaxes(1, 2)
+    spread = across @ spread.reshape(-1, 3, 3) @ across.swapaxes(1, 2)
+    facing = (across @ facing[:, :, None])[:, :, 0]
+    squares = np.einsum("mi,mij,mj->m", facing, spread, facing)
+    is_open = np.linalg.norm(facing, axis=1) ** 3 > OPEN * squares
+    least, most = np.linalg.eigvalsh(spread).T
+    return np.where(is_open, 0.0, smoothstep(least / np.maximum(most, 1e-12), *AROUND))
 
 
 def _pieces(graph, direction, confidence, width):

@@ -264,10 +264,16 @@ def test_toward_a_trunk_the_turn_of_a_limb_becomes_less():
     np.testing.assert_allclose(angles, [20.0, 10.0, 0.0], atol=1e-4)
 
 
-@pytest.mark.parametrize(("step", "around"), [(0.15, 40), (0.3, 24)])
-def test_the_rings_of_a_tin_are_no_limbs(step, around):
+TIN = [(0.02, 0), (0.45, 0), (0.45, 1), (0.42, 1), (0.42, 0.03), (0.02, 0.03)]
+MUG = [(0.02, 0), (0.45, 0), (0.5, 0.04), (0.5, 1.05), (0.48, 1.08), (0.45, 1.05), (0.45, 0.1)]
+MUG += [(0.42, 0.07), (0.02, 0.07)]
+
+
+@pytest.mark.parametrize(
+    ("outline", "step", "around"), [(TIN, 0.15, 40), (TIN, 0.3, 24), (MUG, 0.5, 64)]
+)
+def test_the_rings_of_a_wall_are_no_limbs(outline, step, around):
     """Where vertices of both sides are on rings, so are the midpoints: half of it was limbs."""
-    outline = [(0.02, 0), (0.45, 0), (0.45, 1), (0.42, 1), (0.42, 0.03), (0.02, 0.03)]
     V, F = proxy_shapes.revolved(outline, around, step)
     assert not rest_mesh(V, F).limbs.shares.nnz
 
@@ -295,6 +301,29 @@ def test_the_rim_of_a_shell_is_no_limb(share, wall, is_shell):
     thickness = np.where(is_limb, 0.03, wall)
     found = without_shells(limbs, V, np.zeros(100, int), np.full(100, 0.01), thickness)
     assert found.shares.sum() == (0.0 if is_shell else limbs.shares.sum())
+
+
+def test_a_flat_bar_is_a_limb():
+    """As flat as an arm of a cartoon, it faces more ways than a wall."""
+    V, F = limb_shapes.bar(np.eye(3))
+    limbs = rest_mesh(V * [1.0, 0.35, 1.0] @ tilted(30.0).T, F, DEFAULTS).limbs
+    assert limbs.shares.sum() > 0.9 * len(V)
+
+
+@pytest.mark.parametrize("thickness", [0.06, 0.1])
+def test_a_ring_lies_as_its_axis_does_and_becomes_square(thickness):
+    """A wheel was a polygon of many sides, each of which lay its own way."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 13)
+    V, F = proxy_shapes.revolved(
+        np.stack([1.0 + thickness * np.cos(angle), thickness * np.sin(angle)], axis=1), 64
+    )
+    leaning = V @ tilted(20.0).T
+    limbs = rest_mesh(leaning, F, DEFAULTS).limbs
+    is_used = np.asarray(limbs.shares.sum(axis=0)).ravel() > 0.0
+    assert np.abs(limbs.directions[is_used] @ tilted(20.0)[:, 2]).min() > 0.999
+    U = stylize(leaning, F, 0.4, proxy=DEFAULTS, **KEPT).positions @ tilted(20.0)
+    across = np.ptp(U @ shapes.rotation(z=45.0), axis=0)[:2]
+    assert (across > 1.2 * np.ptp(U, axis=0)[:2]).all()
 
 
 def bars(count):
