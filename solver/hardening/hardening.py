@@ -81,6 +81,8 @@ class Hardening:
     """(n,3) of the vertices of the hard shape, to planes and to straight borders"""
     along: FloatArray
     """(n,3) how far they go along with what they are linked to, however crisp they are"""
+    rim: FloatArray
+    """(n,) how far they belong to rims between flats, from 0 to 1"""
 
     @cached_property
     def crispness(self):
@@ -129,8 +131,9 @@ class Hardening:
         """
         base, rest = self.target.base, self.target.base.rest
         of_sides = self.side, self.target.directions, self.target.heights
-        of_shape = base.is_tilted, base.thickness, open_rims(rest.V, base.graph, self.rotations)
-        moves, flat = flattening(U, rest.F, base.graph, *of_sides, *of_shape)
+        of_shape = base.is_tilted, base.thickness
+        rims = self.rim, open_rims(rest.V, base.graph, self.rotations)
+        moves, flat = flattening(U, rest.F, base.graph, *of_sides, *of_shape, *rims)
         moves *= smoothstep(self.asked, *FLAT)[:, None]
         nothing = np.zeros_like(moves)
         round_ = replace(self, flat=np.zeros_like(flat), moves=nothing, along=nothing)
@@ -218,7 +221,7 @@ def hardening_of(stylization, before=None):
     rims = rims_and_flats(base.graph, stylization.positions, rest.F, *sides[:2])
     rim, plate = slides * np.stack(rims)
     hold = hold_of(rest) * (1.0 - (1.0 - FREE) * rim)
-    found = _raised(stylization, base, thick, sides, hold, plate)
+    found = _raised(stylization, base, thick, sides, hold, plate, rim)
     firm = np.maximum(thick, plate)
     return replace(found, firm=firm, asked=firm * _crispness_of(stylization.style))
 
@@ -233,7 +236,8 @@ def hardening_after(last, stylization):
     if base.rest is not setup.rest:
         base = base_of(setup)
     sides = _sides(stylization, base, firm, last.facing, CLEAR)
-    return _raised(stylization, base, firm, sides, last.target.hold, last.target.slides)
+    of_rims = last.target.hold, last.target.slides, last.rim
+    return _raised(stylization, base, firm, sides, *of_rims)
 
 
 def _sides(stylization, base, firm, before, steady):
@@ -260,7 +264,7 @@ def _sides(stylization, base, firm, before, steady):
     return side, facing, directions
 
 
-def _raised(stylization, base, firm, sides, hold, plate):
+def _raised(stylization, base, firm, sides, hold, plate, rim):
     """Return the Hardening with its details as high as they are asked to be, where it is firm."""
     style, (side, facing, directions) = stylization.style, sides
     solved, R = stylization.positions.copy(), stylization.rotations.copy()
@@ -274,7 +278,7 @@ def _raised(stylization, base, firm, sides, hold, plate):
     target = Target(base, heights, directions, side == NO_SIDE, soft, hold, slides=plate)
     asked, still = firm * _crispness_of(style), np.zeros_like(soft)
     flat = np.zeros(len(soft))
-    return Hardening(solved, soft, R, asked, firm, flat, target, side, facing, still, still)
+    return Hardening(solved, soft, R, asked, firm, flat, target, side, facing, still, still, rim)
 
 
 def _crispness_of(style):

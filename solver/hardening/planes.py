@@ -13,6 +13,7 @@ from scipy.spatial import KDTree
 
 from ..algebra import smoothstep, sums_by_group
 from .open_rims import NO_RIMS, from_middles
+from .rims import diagonals
 
 NEAR = 0.01, 0.016
 """distance from the plane, the root of its mean square, relative to the root of the area: a side
@@ -22,7 +23,8 @@ OF_BARE, BARE = 1.5, (0.02, 0.04)
 tilt the second: what is a face is not to be bent,..."""
 OF_THICK, SHALLOW = 3.0, (0.06, 0.075)
 """...and times so much where, beside that, the distance is less than the first of the thickness,
-but not beyond the second: a cushion becomes flat, and what is slender keeps its bends"""
+but not beyond the second: a cushion becomes flat, and what is slender keeps its bends. A rim
+between two flats may bulge as much, of its length, however thin the plate is"""
 RIMS = 0.1, 0.15
 """distance from the plane of an open rim, relative to its radius: as `NEAR`"""
 UPRIGHT = 0.01, 0.02
@@ -37,7 +39,7 @@ _FAR = 10.0  # between regions, so that none is nearest to those of another
 _LEAST = 1e-12
 
 
-def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rims=NO_RIMS):
+def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim, rims=NO_RIMS):
     """Return how far vertices (n,3) have to move, and how far they belong to planes (n,), 0 to 1.
 
     Parameters
@@ -56,6 +58,8 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim
         Triangles that details tilt.
     thickness : (m,) array
         Of the shape at the triangles, zero where there is none or none that counts.
+    rim : (n,) array
+        How far vertices belong to rims between flats, as `rims_and_flats` returns it.
     rims : as of `open_rims`, optional
     """
     n, is_same = len(U), (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
@@ -70,7 +74,11 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim
     tilted = np.bincount(region, graph.areas * is_tilted, count) / np.maximum(area, _LEAST)
     normals, offsets, distance = _planes(centers, graph.areas, region, facing)
     thick = np.bincount(region, graph.areas * thickness, count) / np.maximum(area, _LEAST)
-    shares = np.where(has_one, _nearness(distance, area, tilted, thick), 0.0)
+    is_rim = np.bincount(region, graph.areas * rim[F].min(axis=1), count)
+    is_rim /= np.maximum(area, _LEAST)
+    size = np.sqrt(np.maximum(area, _LEAST))
+    size += is_rim * (diagonals(U, F, region, count) - size)
+    shares = np.where(has_one, _nearness(distance, size, tilted, thick, is_rim), 0.0)
     kept = np.flatnonzero(is_whole[region])
     numbers = np.repeat(region[kept].astype(np.int64), 3) * n + F[kept].ravel()
     of, at = np.divmod(np.unique(numbers), n)
@@ -109,14 +117,15 @@ def _facing(directions, areas, region, area):
     return means / np.maximum(length, _LEAST)[:, None], length > _ALIKE
 
 
-def _nearness(distance, area, tilted, thick):
-    """Return how far regions (r,) go to planes at such distances, from 0 to 1, see `NEAR`.
+def _nearness(distance, size, tilted, thick, is_rim):
+    """Return how far regions (r,) of a size go to planes at such distances, 0 to 1, see `NEAR`.
 
-    `tilted`: (r,) share of the area that details tilt. `thick`: (r,) thickness.
+    `tilted`: (r,) share of the area that details tilt. `thick`: (r,) thickness. `is_rim`: (r,).
     """
-    share = distance / np.sqrt(np.maximum(area, _LEAST))
+    share = distance / size
     bare = smoothstep(tilted, *BARE[::-1])
-    shallow = bare * smoothstep(distance / np.maximum(thick, _LEAST), *SHALLOW[::-1])
+    shallow = smoothstep(distance / np.maximum(thick, _LEAST), *SHALLOW[::-1])
+    shallow = bare * np.maximum(shallow, is_rim)
     near = 1.0 + (OF_BARE - 1.0) * bare + (OF_THICK - OF_BARE) * shallow
     return smoothstep(share / near, *NEAR[::-1])
 

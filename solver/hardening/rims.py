@@ -26,12 +26,7 @@ def rims_and_flats(graph, V, F, side, facing):
     """
     is_same = (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
     count, region = graph.regions(is_same)
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    for corner in F.T:
-        np.minimum.at(low, region, V[corner])
-        np.maximum.at(high, region, V[corner])
-    diagonal = np.maximum(((high - low) ** 2).sum(axis=1), 1e-300)
-    width = np.bincount(region, graph.areas, count) / diagonal
+    width = np.bincount(region, graph.areas, count) / diagonals(V, F, region, count) ** 2
     share = np.clip((width - NARROW[0]) / (NARROW[1] - NARROW[0]), 0.0, 1.0)
     rim = np.where(np.bincount(region, minlength=count) < FEWEST, 0.0, 1.0 - share)
     rim, flat = _between_flats(graph, region, rim, facing)
@@ -39,6 +34,15 @@ def rims_and_flats(graph, V, F, side, facing):
     np.maximum.at(at_rims, F.ravel(), np.repeat(rim[region], 3))
     np.maximum.at(at_flats, F.ravel(), np.repeat(flat[region], 3))
     return at_rims, np.maximum(at_rims, at_flats)
+
+
+def diagonals(V, F, region, count):
+    """Return the diagonals (r,) of the boxes around regions of triangles (m,3), none of them 0."""
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    for corner in F.T:
+        np.minimum.at(low, region, V[corner])
+        np.maximum.at(high, region, V[corner])
+    return np.maximum(np.linalg.norm(high - low, axis=1), 1e-150)
 
 
 def _between_flats(graph, region, rim, facing):

@@ -26,12 +26,12 @@ def bulging(bulge, slope=0.3, n=12):
     return V, F, side
 
 
-def flattened(V, F, side, heights=None, *, is_tilted=False, thickness=0.0):
+def flattened(V, F, side, heights=None, *, is_tilted=False, thickness=0.0, rim=0.0):
     up = np.tile([0.0, 0.0, 1.0], (len(F), 1))
     heights = np.zeros(len(V)) if heights is None else heights
     tilted = np.full(len(F), is_tilted)
-    thick = np.full(len(F), thickness)
-    return flattening(V, F, FaceGraph(V, F), side, up, heights, tilted, thick)
+    thick, of_rim = np.full(len(F), thickness), np.full(len(V), rim)
+    return flattening(V, F, FaceGraph(V, F), side, up, heights, tilted, thick, of_rim)
 
 
 def from_planes(U, F, side):
@@ -75,6 +75,14 @@ def test_what_is_thick_loses_a_larger_bulge_than_what_is_slender():
     assert flattened(V, F, side, thickness=0.7)[1].min() > 0.99
     assert flattened(V, F, side, thickness=0.15)[1].max() < 0.1
     assert flattened(V, F, side, thickness=0.7, is_tilted=True)[1].max() < 0.1
+
+
+def test_the_rim_of_a_plate_becomes_straight_however_thin_it_is():
+    """A bun in a burger, whose sides bow more than it is thick."""
+    V, F, side = bulging((0.13, 0.13))
+    assert flattened(V, F, side, thickness=0.05)[1].max() < 0.1
+    assert flattened(V, F, side, thickness=0.05, rim=1.0)[1].min() > 0.99
+    assert flattened(V, F, side, thickness=0.05, rim=1.0, is_tilted=True)[1].max() < 0.5
 
 
 def test_a_side_without_a_plane_follows_its_edges():
