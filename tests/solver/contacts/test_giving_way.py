@@ -80,13 +80,7 @@ def test_a_head_becomes_as_cubic_as_without_keep_apart(make, crispness):
 
 
 def test_parts_may_cross_where_a_round_would_cost_more_style_than_it_saves():
-    """An egg with a head, wings, feet and the brim of a hat, all of them close to each other."""
-    ball, faces = uv_sphere(32, 16)
-    sizes = [(0.7, 0.6, 0.95), (0.58, 0.55, 0.52)] + 2 * [(0.14, 0.28, 0.6), (0.2, 0.33, 0.12)]
-    places = [(0, 0, 1), (0, 0, 2.25), (-0.76, 0.05, 1.2), (-0.3, -0.15, 0.12)]
-    places += [(0.76, 0.05, 1.2), (0.3, -0.15, 0.12)]
-    parts = [(ball * size + place, faces) for size, place in zip(sizes, places, strict=True)]
-    V, F = joined(*parts, ring(0.6, 0.09, 2.62))
+    V, F = joined(bird(32), ring(0.6, 0.09, 2.62))
     free, kept = (stylize(V, F, proxy=ProxyOptions(keep_apart=kept)) for kept in (False, True))
     assert angle_to_axes(kept.positions, F) < angle_to_axes(free.positions, F) + 0.5
     assert 0 < kept.pressed <= kept.crossings
@@ -116,7 +110,7 @@ def test_what_crosses_once_sides_are_flat_is_pushed_apart_and_stays_crisp(make):
 
 
 def test_parts_may_cross_where_they_would_else_stay_soft():
-    mesh = joined(uv_sphere(16, 8), ring(1.1, 0.08, 0.0, count=32, around=8))
+    mesh = bird(16)
     made, share = crisp_run(*mesh)
     result = made.result()
     assert share > 0.99 and result.crossings == result.pressed > 0
@@ -125,8 +119,18 @@ def test_parts_may_cross_where_they_would_else_stay_soft():
     assert softer.result() == crisp_run(*mesh, 0.4)[0].result(), "that before is not the measure"
 
 
-def ring(radius, thickness, height, count=40, around=12):
-    V, quads = torus(count, around, thickness / radius)
+def bird(segments):
+    """Return an egg with a head, wings and feet, all of them close to each other."""
+    ball, faces = uv_sphere(segments, segments // 2)
+    sizes = [(0.7, 0.6, 0.95), (0.58, 0.55, 0.52)] + 2 * [(0.14, 0.28, 0.6), (0.2, 0.33, 0.12)]
+    places = [(0, 0, 1), (0, 0, 2.25), (-0.76, 0.05, 1.2), (-0.3, -0.15, 0.12)]
+    places += [(0.76, 0.05, 1.2), (0.3, -0.15, 0.12)]
+    parts = [(ball * size + place, faces) for size, place in zip(sizes, places, strict=True)]
+    return joined(*parts)
+
+
+def ring(radius, thickness, height):
+    V, quads = torus(40, 12, thickness / radius)
     return radius * V + [0, 0, height], np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
 
 
