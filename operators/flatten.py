@@ -74,8 +74,7 @@ class CUBIC_CRAFT_OT_flatten(OnOriginals, bpy.types.Operator):
         facets = flat_facets(obj, self.angle, self.tolerance, with_polygons=self.dissolve)
         was_edited = mesh_bridge.is_edited(mesh)
         facts = [
-            f"{facets.count} planar facets, no vertex farther than {facets.deviation:.1e} from its"
-            f" plane; {facets.moved:,} of {len(facets.positions):,} vertices moved, by"
+            f"{facets.count} planar facets, {facets.moved:,} vertices moved by"
             f" {facets.largest_move:.2g} or less"
         ]
         if was_edited:

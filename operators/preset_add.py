@@ -17,8 +17,8 @@ class CUBIC_CRAFT_OT_preset_add(bpy.types.Operator):
     bl_idname = "cubic_craft.preset_add"
     bl_label = "Save Preset"
     bl_description = (
-        "Save the current look under a name, for all files: cubeness, solidity, and what stays"
-        " together. This replaces a preset of yours with the same name"
+        "Save the current look under a name, for all files: how cubic and crisp, which details"
+        " remain, and what stays together. This replaces a preset of yours with the same name"
     )
     bl_options = {"INTERNAL"}
 

@@ -14,8 +14,8 @@ class CUBIC_CRAFT_OT_reset(bpy.types.Operator):
     bl_idname = "cubic_craft.reset"
     bl_label = "Reset Settings"
     bl_description = (
-        "Reset all settings of the panel to their defaults. Handles and the cubeness map are kept,"
-        " and the mesh does not change until the next Cubify"
+        "Reset all settings of the panel to their defaults. Handles, regions and painted groups"
+        " are kept, and the mesh does not change until the next Cubify"
     )
     bl_options = {"REGISTER", "UNDO"}
 

@@ -34,7 +34,7 @@ class CUBIC_CRAFT_OT_restore_first(OnOriginals, bpy.types.Operator):
     bl_label = "Restore First"
     bl_description = (
         "Restore the shape that the selected meshes had before they were first cubified. Later"
-        " originals, which From Here has put in its place, are lost"
+        " originals, made by From Here, are lost"
     )
     done = "Restored the first original of"
     nothing = "No original was replaced; Restore brings it back"

@@ -68,8 +68,6 @@ def draw(layout, obj):
     layout.operator("cubic_craft.handle_pin_selection", icon="PINNED")
     if properties.active_handle < len(handles):
         _draw_active(layout, obj, handles[properties.active_handle])
-    if len(handles) > 1:
-        layout.label(text="Where they overlap, the first wins", icon="INFO")
     layout.prop(live.shared_properties(obj), "hold_rest")
     layout.operator("cubic_craft.handle_reset_pose", icon="LOOP_BACK")
 

@@ -68,8 +68,6 @@ class Facets:
     """number of vertices that move"""
     largest_move: float
     """largest distance that one moves, as it is seen: with the object's scale"""
-    deviation: float
-    """largest distance of a vertex from the plane of its facet, in the same unit"""
     polygons: Polygons | None
     """the whole shape as few polygons, if asked for"""
 
@@ -106,14 +104,11 @@ def flat_facets(
     is_moved = (flat.positions != V).any(axis=1)
     back = placement.read_back(flat.positions).astype(np.float32)
     positions = np.where(is_moved[:, None], back, present)
-    deviation = flat.deviation_of(placement.place(positions))
     polygons = None
     if with_polygons:
         surface = Surface(mesh_bridge.mesh_of(obj), present, placement, directions, walls, counts)
         polygons = surface.polygons(tolerance)
-    return Facets(
-        positions, flat.facet_of, flat.count, flat.moved, flat.largest_move, deviation, polygons
-    )
+    return Facets(positions, flat.facet_of, flat.count, flat.moved, flat.largest_move, polygons)
 
 
 @dataclass(frozen=True)

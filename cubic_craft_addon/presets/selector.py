@@ -47,7 +47,8 @@ def preset_property() -> Any:
     """Return the declaration of the property, for a group that has the settings."""
     return EnumProperty(
         name="Preset",
-        description="Look of the result: how cubic, how solid, and what stays together",
+        description="Look of the result: how cubic and crisp, which details remain, and what stays"
+        " together",
         items=_items_of,
         get=_get,
         set=_set,

@@ -33,7 +33,9 @@ BENT = np.cos(np.radians(45.0))
 SHORT = 0.6
 """...and of their lengths"""
 GOES_ON = np.cos(np.radians(60.0))
-"""between bones of which the next has the frame of the one before"""
+"""between bones of which the next has the frame of the one before, carried along,..."""
+LEVEL = np.cos(np.radians(15.0))
+"""...or as it is, as a hand has that of its arm: bones of hands are rarely straight"""
 ACROSS, MUCH = 1.3, 1.2
 """ratios of widths: from the first on, the last bone lies across what it moves; up to the second, a
 way to the next bone is as good as another"""
@@ -235,21 +237,20 @@ def _frames(bones, confidence, end_of):
     """Return the directions (b,3) that frames are found from, and what carries them (b,3,3).
 
     Along a limb, they are those of its first bone, carried by the smallest turns from each bone to
-    the next: found one by one, they would twist a limb where its nearest axis changes. A hand has
-    the frame of its arm.
+    the next: found one by one, they would twist a limb where its nearest axis changes. A hand that
+    goes straight on has the frame of its arm.
     """
     directions, carried = bones.directions.copy(), np.tile(np.eye(3), (len(confidence), 1, 1))
     for bone in _from_the_root(bones.parents):
         parent = bones.parents[bone]
         if parent < 0 or min(confidence[bone], confidence[parent]) <= 0.0:
             continue
-        if end_of[bone] >= 0:
-            directions[bone], carried[bone] = directions[parent], carried[parent]
-            continue
         one, other = bones.directions[[parent]], bones.directions[[bone]]
-        if (one * other).sum() > GOES_ON:
-            directions[bone] = directions[parent]
-            carried[bone] = smallest_turns(one, other)[0] @ carried[parent]
+        cosine = (one * other).sum()
+        if cosine > GOES_ON:
+            is_straight = end_of[bone] >= 0 and cosine > LEVEL
+            turn = np.eye(3) if is_straight else smallest_turns(one, other)[0]
+            directions[bone], carried[bone] = directions[parent], turn @ carried[parent]
     return directions, carried
 
 

@@ -88,6 +88,11 @@ def test_a_head_stays_trunk_and_a_hand_goes_with_its_arm():
     found, limbs = shares((0 * X, 2 * TILTED, 0.2, -1), (2 * TILTED, hand, 0.25, 0))
     assert found == pytest.approx(1.0)
     np.testing.assert_allclose(limbs.present, [TILTED, TILTED], atol=1e-12)
+    bent = np.array([np.sin(np.radians(72.0)), 0.0, -np.cos(np.radians(72.0))])
+    hand = 2 * TILTED + 0.35 * bent
+    found, limbs = shares((0 * X, 2 * TILTED, 0.2, -1), (2 * TILTED, hand, 0.25, 0))
+    assert found == pytest.approx(1.0)
+    np.testing.assert_allclose(limbs.present, [TILTED, bent], atol=1e-12)
 
 
 def test_arms_of_a_slim_figure_are_no_hands_of_its_spine():
