@@ -5,7 +5,6 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import job, live, mesh_bridge
-from ..angles import overlay as angles_overlay
 from ..animation import panel as animation_panel
 from ..environment.ahead import load_ahead
 from ..environment.modes import is_mode_usable
@@ -117,9 +116,7 @@ def _draw_problem(context, layout, text):
 
 def _draw_orientation(layout, obj):
     properties = live.shared_properties(obj)
-    row = layout.row(heading="Show")
-    row.prop(bpy.context.window_manager, form_overlay.PROPERTY, text="Form")
-    row.prop(bpy.context.window_manager, angles_overlay.PROPERTY, text="Angles")
+    layout.prop(bpy.context.window_manager, form_overlay.PROPERTY)
     layout.prop(properties, "space")
     if properties.space == "FRAME":
         if live.current():

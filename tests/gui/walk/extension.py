@@ -185,7 +185,7 @@ def change_preference(rng):
         return None
     if rng.random() < 0.5:
         manager = bpy.context.window_manager
-        name = rng.choice(("cubic_craft_overlay", "cubic_craft_angles"))
+        name = "cubic_craft_overlay"
         setattr(manager, name, not getattr(manager, name))
         return name
     preferences = bpy.context.preferences.addons[scene.EXTENSION].preferences
