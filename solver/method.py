@@ -22,13 +22,13 @@ _XYZ = ("X", "Y", "Z")
 class Style:
     """What the surface is turned toward, and how strongly."""
 
-    cubeness: float = setting(0.4, metavar="L", limits=(0, 10), soft=(0, 1), is_strength=True)(
+    cubeness: float = setting(0.4, metavar="L", limits=(0, 10), soft=(0, 1))(
         "Cubeness",
         "How strongly the surface turns toward the sides of the form. 0 keeps the shape, 0.1 moves"
         " it a third of the way, 0.4 most of it. You can type values beyond the slider, up to 10",
         "0 keeps the shape, 0.1 to 1 are common",
     )
-    crispness: float = setting(0.9, metavar="C", limits=(0, 1), paper=0.0, is_strength=True)(
+    crispness: float = setting(0.9, metavar="C", limits=(0, 1), paper=0.0)(
         "Crispness",
         "How far the sides of the cubic shape are made flat and its edges straight. 0 is soft, 1"
         " is cut as with a knife; details stay on the sides",
@@ -71,9 +71,7 @@ class StyleInScene:
         'for --form faces the directions of its sides, three numbers for each: "0 0 1, 1 0 0";'
         " where they leave a side open, those opposite are added",
     )
-    capture_strength: float = setting(
-        0.4, metavar="X", limits=(0, 10), soft=(0, 1), is_strength=True
-    )(
+    capture_strength: float = setting(0.4, metavar="X", limits=(0, 10), soft=(0, 1))(
         "Strength",
         "How strongly the surface turns as the normal capture shows, in addition to the cubeness."
         " You can type values beyond the slider, up to 10",

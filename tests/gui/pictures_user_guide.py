@@ -112,7 +112,7 @@ def set_the_stage():
 
 def open_last():
     """Click on the headers of the last sections, each below the last button that is open."""
-    buttons = ("sharp_edges", "bake_process", "bake_normal_map")
+    buttons = ("sharp_edges", "bake_animation", "bake_normal_map")
     for button in (f"cubic_craft.{name}" for name in buttons):
         above = yield from gui.find_button(button)
         yield from gui.click((above.at(0.5)[0], round(above.bottom - 20 * SCALE)))

@@ -252,4 +252,3 @@ def test_what_cannot_be_animated_is_refused_by_name(extension, bending, tmp_path
     with pytest.raises(RuntimeError, match=f'"Ball": {label} cannot be animated'):
         bpy.ops.cubic_craft.bake_animation(folder=str(tmp_path))
     assert not [*tmp_path.iterdir()]
-    assert bpy.ops.cubic_craft.bake_process(folder=str(tmp_path)) == {"FINISHED"}
