@@ -28,7 +28,7 @@ SOURCES := __init__.py blender_manifest.toml \
 .DEFAULT_GOAL := help
 .PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-quadrants \
 	test-hostile test-reliability test-gpu test-gui test-walk test-package lint typecheck \
-	build package upload repository release lock wheel test-wheel bench bench-quick bench-live example-pictures films docs-images clean
+	build package upload repository release lock wheel test-wheel bench bench-quick example-pictures films docs-images clean
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -218,9 +218,6 @@ bench-quick: setup ## A part of it in about two minutes; writes build/bench
 	$(PY) $(PIP) -r requirements/bench.txt
 	$(PY) scripts/benchmark --quick $(ARGS)
 
-bench-live: $(ZIP) ## Ticks of Live in a real window; writes docs/benchmarks_live.md
-	$(PY) scripts/benchmark_live.py $(ZIP)
-
 docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; SITE_URL=where it will lie
 	NO_MKDOCS_2_WARNING=1 SITE_URL="$(SITE_URL)" $(VENV)-docs/bin/python -m mkdocs build
 
@@ -234,7 +231,7 @@ figures: setup ## The figures of the paper, in docs/figures; MESHES=folder, else
 	$(PY) scripts/figures $(if $(MESHES),--meshes "$(MESHES)") $(ARGS)
 
 .PHONY: small-pictures
-small-pictures: setup ## Those in the panel and on the extensions platform; KIND=presets, forms, icon or feature
+small-pictures: setup ## Those in the panel; KIND=presets or forms
 	$(PY) scripts/small_pictures $(KIND) $(ARGS)
 
 example-pictures: setup $(ZIP) ## The pictures of docs/examples.md, in docs/images
