@@ -77,7 +77,7 @@ test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on the versions of Blen
 		--ignore tests/blender/mesh_bridge/test_bridge_faults.py \
 		$(patsubst %,--ignore-glob "*/test_%.py",assembly cages docs_examples edited examples faults \
 		flatten_facets flatten_ngons floor form_from_selection form_settings handle_own_pose handle_reach \
-		handles keyed_settings leaks live_crisp live_inputs live_poses live_transforms normal_capture \
+		handles keyed_settings leaks live_crisp live_inputs live_poses live_transforms \
 		orientation other_blenders posed_anew refusals regions rigged_limbs scenes \
 		select_crossing symmetry up_to_date worn) \
 		--ignore tests/blender/send tests/blender \

@@ -71,12 +71,6 @@ class StyleInScene:
         'for --form faces the directions of its sides, three numbers for each: "0 0 1, 1 0 0";'
         " where they leave a side open, those opposite are added",
     )
-    capture_strength: float = setting(0.4, metavar="X", limits=(0, 10), soft=(0, 1))(
-        "Strength",
-        "How strongly the surface turns as the normal capture shows, in addition to the cubeness."
-        " You can type values beyond the slider, up to 10",
-        "of the normals of --capture, beside the cubeness",
-    )
     space: str = setting("WORLD")(
         "Relative To",
         "Axes that the rotation of the form is relative to",

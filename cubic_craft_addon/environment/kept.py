@@ -210,7 +210,7 @@ class FoundLater(Kept[T]):
 class KeptFrom(Kept[T]):
     """What is made from other objects, kept until Blender reports a change of the object.
 
-    The panel asks for the form and the normal capture at each redraw, and reading a mesh of half a
+    The panel asks for the form at each redraw, and reading a mesh of half a
     million vertices takes a good part of a second. Whatever changes what the viewport shows of an
     object is evaluated by the dependency graph, which then reports the object: edits, modifiers and
     what they depend on, shape keys, transforms.

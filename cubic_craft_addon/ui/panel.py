@@ -136,7 +136,6 @@ def _draw_shape(layout, obj):
     title_row, body = layout.panel(_ADVANCED, default_closed=True)
     title_row.label(text="Advanced")
     if body is not None:
-        form_panel.draw_capture(body, properties)
         body.prop_search(live.own_properties(obj), "detail_group", obj, "vertex_groups")
         draw_advanced(body, properties)
 
