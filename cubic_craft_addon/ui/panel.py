@@ -22,7 +22,6 @@ from ..run.up_to_date import changes_since
 from ..screen.text_fit import draw_wrapped, is_narrow
 from ..send import panel as send_panel
 from ..settings.properties import settings_of
-from ..worn import panel as worn
 from . import buttons, edited, header, seen, status_panel
 from .settings_rows import draw_advanced, draw_solver, draw_volume
 from .symmetry_panel import draw_symmetry
@@ -96,7 +95,6 @@ def _draw_cubify(context, layout, obj):
     status_panel.draw(context, layout, obj, run, changes)
     if hint:
         seen.draw_hint(layout, hint)
-    worn.draw(context, layout, obj)
     seen.draw_source(layout, obj)
     animation_panel.draw_animated(context, layout, obj)
 
