@@ -28,7 +28,7 @@ SOURCES := __init__.py blender_manifest.toml \
 .DEFAULT_GOAL := help
 .PHONY: help setup setup-all setup-gui render docs test test-thorough test-solver test-blender test-oldest test-quadrants \
 	test-hostile test-reliability test-gpu test-gui test-walk test-package lint typecheck \
-	build package upload repository release lock wheel test-wheel bench bench-quick bench-live example-pictures films docs-images clean
+	build package upload repository release lock wheel test-wheel bench bench-quick example-pictures films docs-images clean
 
 help: ## Show this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -77,9 +77,9 @@ test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on the versions of Blen
 		--ignore tests/blender/mesh_bridge/test_bridge_faults.py \
 		$(patsubst %,--ignore-glob "*/test_%.py",assembly cages docs_examples edited examples faults \
 		flatten_facets flatten_ngons floor form_from_selection form_settings handle_own_pose handle_reach \
-		handles keyed_settings leaks live_crisp live_inputs live_poses live_transforms normal_capture \
-		orientation other_blenders posed_anew process refusals regions rigged_limbs scenes show_angles \
-		select_crossing symmetry up_to_date worn) \
+		handles keyed_settings leaks live_crisp live_inputs live_poses live_transforms \
+		orientation other_blenders posed_anew refusals regions rigged_limbs scenes \
+		select_crossing symmetry up_to_date) \
 		--ignore tests/blender/send tests/blender \
 		$(patsubst %,tests/scripts/test_headless_%.py,bake picture round_trip seen)
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 2 tests/blender/send
@@ -192,7 +192,7 @@ $(VENV)-library-$(1)/bin/python $(PYTEST) $(5)
 endef
 NOTEBOOK := tests/library/test_library_notebook.py
 
-test-wheel: wheel ## The installed wheel with the oldest and the newest NumPy, its command and the notebook
+test-wheel: wheel ## The installed wheel with the oldest and the newest NumPy, and the notebook
 	$(call test_library,oldest,$(PYTHON311),oldest,,--few 2 --ignore $(NOTEBOOK) tests/library)
 	$(call test_library,newest,$(PYTHON),newest,[fast],tests/library)
 
@@ -218,9 +218,6 @@ bench-quick: setup ## A part of it in about two minutes; writes build/bench
 	$(PY) $(PIP) -r requirements/bench.txt
 	$(PY) scripts/benchmark --quick $(ARGS)
 
-bench-live: $(ZIP) ## Ticks of Live in a real window; writes docs/benchmarks_live.md
-	$(PY) scripts/benchmark_live.py $(ZIP)
-
 docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; SITE_URL=where it will lie
 	NO_MKDOCS_2_WARNING=1 SITE_URL="$(SITE_URL)" $(VENV)-docs/bin/python -m mkdocs build
 
@@ -234,7 +231,7 @@ figures: setup ## The figures of the paper, in docs/figures; MESHES=folder, else
 	$(PY) scripts/figures $(if $(MESHES),--meshes "$(MESHES)") $(ARGS)
 
 .PHONY: small-pictures
-small-pictures: setup ## Those in the panel and on the extensions platform; KIND=presets, forms, icon or feature
+small-pictures: setup ## Those in the panel; KIND=presets or forms
 	$(PY) scripts/small_pictures $(KIND) $(ARGS)
 
 example-pictures: setup $(ZIP) ## The pictures of docs/examples.md, in docs/images

@@ -2,7 +2,6 @@
 """Registers the Blender side that is not an operator."""
 
 from . import hidden_source, job, live, presets
-from .angles import overlay as angles_overlay
 from .animation import properties as animation_properties
 from .command_line import blender_command
 from .environment import ahead, kept
@@ -32,8 +31,7 @@ _modules = (
     kept,
     handle_gizmos,
     handles_overlay,
-    angles_overlay,
-    form_overlay,  # its lines are drawn over the colors
+    form_overlay,
     handles_panel,
     regions_panel,
     presets,

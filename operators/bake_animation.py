@@ -4,19 +4,27 @@
 from pathlib import Path
 
 import bpy
-from bpy.props import StringProperty
 
 from ..cubic_craft_addon.animation.bake import Bake, BakeOptions
 from ..cubic_craft_addon.animation.properties import BakeProperties, bake_properties, source_of
-from ..cubic_craft_addon.animation.sources import OfSources, overrides_of
+from ..cubic_craft_addon.animation.sources import OfSources
 from ..solver import CubicCraftError
 from ._shared.given_or_shared import given_or_shared
 from ._shared.selection import poll_sources, selected_sources
 from ._shared.watched_operator import WatchedOperator
 
 
-class _BakeOperator(WatchedOperator, BakeProperties):
-    is_process: bool
+class CUBIC_CRAFT_OT_bake_animation(WatchedOperator, BakeProperties, bpy.types.Operator):
+    """Bake the cubic version of each frame of the selected objects."""
+
+    bl_idname = "cubic_craft.bake_animation"
+    bl_label = "Cubify Animation"
+    bl_description = (
+        "Make the visible mesh of the selected objects cubic in each frame, with armatures,"
+        " simulations and other modifiers, as new objects that play it back. Esc keeps the frames"
+        " that are done; the next bake continues there"
+    )
+    bl_options = {"UNDO"}
 
     @classmethod
     def poll(cls, context):
@@ -42,52 +50,4 @@ class _BakeOperator(WatchedOperator, BakeProperties):
                 "Save the .blend file first, or choose a folder that does not begin with //"
             )
         path = Path(bpy.path.abspath(folder))
-        return BakeOptions(
-            start, end, path, values["format"], self.is_process, self._process_from(scene)
-        )
-
-    def _process_from(self, scene):
-        """Return the settings that a process begins with, None for the original."""
-        return None
-
-
-class CUBIC_CRAFT_OT_bake_animation(_BakeOperator, bpy.types.Operator):
-    """Bake the cubic version of each frame of the selected objects."""
-
-    bl_idname = "cubic_craft.bake_animation"
-    bl_label = "Cubify Animation"
-    bl_description = (
-        "Make the visible mesh of the selected objects cubic in each frame, with armatures,"
-        " simulations and other modifiers, as new objects that play it back. Esc keeps the frames"
-        " that are done; the next bake continues there"
-    )
-    bl_options = {"UNDO"}
-    is_process = False
-
-
-class CUBIC_CRAFT_OT_bake_process(_BakeOperator, bpy.types.Operator):
-    """Bake how the selected objects become cubic."""
-
-    bl_idname = "cubic_craft.bake_process"
-    bl_label = "Bake Process"
-    bl_description = (
-        "Make new objects that become cubic within the frames, at an even speed, from what the"
-        " selected objects look like now. With shape keys, their Evaluation Time shows any"
-        " moment of it"
-    )
-    bl_options = {"UNDO"}
-    is_process = True
-
-    process_from: StringProperty(
-        name="From",
-        description="Name of the object whose settings it begins with; empty for the original",
-        options={"SKIP_SAVE"},
-    )
-
-    def _process_from(self, scene):
-        chosen = bake_properties(scene).process_from
-        if self.properties.is_property_set("process_from"):
-            chosen = bpy.data.objects.get(self.process_from)
-            if self.process_from and chosen is None:
-                raise CubicCraftError(f'there is no object "{self.process_from}"')
-        return None if chosen is None else overrides_of([chosen], is_for_all=True)
+        return BakeOptions(start, end, path, values["format"])

@@ -19,7 +19,7 @@ class CUBIC_CRAFT_OT_bake_normal_map(NormalMapProperties, bpy.types.Operator):
     bl_idname = "cubic_craft.bake_normal_map"
     bl_label = "Bake Normal Map"
     bl_description = (
-        "Make a low-poly version of the active cubic mesh with flat facets, and bake the details"
+        "Make a low-poly version of the active cubic mesh, and bake the details"
         " that it lacks to a normal map. The cubic mesh is hidden, not changed"
     )
     bl_options = {"UNDO"}  # no redo panel: each change would write another image

@@ -51,7 +51,6 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, RunProperties, bpy.types.Operator):
     start: START
     frame: pointer_name("frame")
     form_object: pointer_name("form_object")
-    capture_object: pointer_name("capture_object")
     handles: CollectionProperty(
         name="Handles",
         description="Handles to use in place of those of the objects",
@@ -104,9 +103,6 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, RunProperties, bpy.types.Operator):
                 layout.prop_search(self, name, context.blend_data, "objects")
             else:
                 layout.prop(self, name)
-        layout.prop_search(self, "capture_object", context.blend_data, "objects")
-        if self.capture_object:
-            layout.prop(self, "capture_strength", slider=True)
         layout.prop(self, "space")
         if self.space == "FRAME":
             layout.prop_search(self, "frame", context.blend_data, "objects")

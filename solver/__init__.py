@@ -66,7 +66,6 @@ if TYPE_CHECKING:
     from .proxy.options import ProxyOptions as ProxyOptions
     from .rotation_fit import svd_rotations as svd_rotations
     from .styles.cube import nearest_to_identity as nearest_to_identity
-    from .styles.normal_capture import NormalCapture as NormalCapture
     from .styles.style import Style as Style
     from .surface.preparation import rest_mesh as rest_mesh
     from .surface.rest import RestMesh as RestMesh
@@ -110,7 +109,6 @@ else:
         "proxy.options": "PAPER ProxyOptions",
         "rotation_fit": "svd_rotations",
         "styles.cube": "nearest_to_identity",
-        "styles.normal_capture": "NormalCapture",
         "styles.style": "Style",
         "surface.preparation": "rest_mesh",
         "surface.rest": "RestMesh",

@@ -2,7 +2,7 @@
 """Every setting, once: its name, default, limits, words and who has it.
 
 From here come Blender's properties and those of the operators, what a preset holds, the options of
-both command lines, the library's defaults, and what the tables of the documentation are checked
+the command line, the library's defaults, and what the tables of the documentation are checked
 against. Nothing here needs SciPy, without which the panel is shown, too.
 
 Names, and the numbers of choices, are in files: only add to them.
@@ -22,13 +22,13 @@ _XYZ = ("X", "Y", "Z")
 class Style:
     """What the surface is turned toward, and how strongly."""
 
-    cubeness: float = setting(0.4, metavar="L", limits=(0, 10), soft=(0, 1), is_strength=True)(
+    cubeness: float = setting(0.4, metavar="L", limits=(0, 10), soft=(0, 1))(
         "Cubeness",
         "How strongly the surface turns toward the sides of the form. 0 keeps the shape, 0.1 moves"
         " it a third of the way, 0.4 most of it. You can type values beyond the slider, up to 10",
         "0 keeps the shape, 0.1 to 1 are common",
     )
-    crispness: float = setting(0.9, metavar="C", limits=(0, 1), paper=0.0, is_strength=True)(
+    crispness: float = setting(0.9, metavar="C", limits=(0, 1), paper=0.0)(
         "Crispness",
         "How far the sides of the cubic shape are made flat and its edges straight. 0 is soft, 1"
         " is cut as with a knife; details stay on the sides",
@@ -70,14 +70,6 @@ class StyleInScene:
         ' as "0 0 1, 1 0 0". Directions from Selection writes them',
         'for --form faces the directions of its sides, three numbers for each: "0 0 1, 1 0 0";'
         " where they leave a side open, those opposite are added",
-    )
-    capture_strength: float = setting(
-        0.4, metavar="X", limits=(0, 10), soft=(0, 1), is_strength=True
-    )(
-        "Strength",
-        "How strongly the surface turns as the normal capture shows, in addition to the cubeness."
-        " You can type values beyond the slider, up to 10",
-        "of the normals of --capture, beside the cubeness",
     )
     space: str = setting("WORLD")(
         "Relative To",

@@ -20,7 +20,6 @@ from .limbs import KnownLimbs
 from .mesh.mesh_checks import check_mesh, check_winding
 from .proxy import PAPER, ProxyOptions
 from .styles.admm import AdmmOptions
-from .styles.normal_capture import NormalCapture
 from .styles.polytope import Polytope
 from .styles.style import CRISPNESS, Style
 from .surface.preparation import rest_mesh
@@ -43,9 +42,6 @@ def stylize(
     detail_strength: ArrayLike = 1.0,
     targets: ArrayLike | None = None,
     limbs: KnownLimbs | None = None,
-    capture: NormalCapture | Sequence[NormalCapture] | None = None,
-    capture_strength: ArrayLike = 0.0,
-    capture_of: ArrayLike | None = None,
     max_iterations: int = 1000,
     tolerance: float = 1e-3,
     on_iteration: OnIteration | None = None,
@@ -81,7 +77,7 @@ def stylize(
         with `PAPER`.
     form : str, Polytope or sequence of them, optional
         What a ball would become, such as "octahedron"; by default the cube. `styles.forms` has all.
-    form_of, orientation, detail_strength, capture, capture_strength, capture_of
+    form_of, orientation, detail_strength
         As of `Style`.
     targets, limbs
         As of `Pose`: where the pinned vertices go, and limbs that are known.
@@ -141,9 +137,6 @@ def stylize(
         np.eye(3) if orientation is None else orientation,
         form,
         form_of=form_of,
-        capture=capture,
-        capture_strength=capture_strength,
-        capture_of=capture_of,
         crispness=(0.0 if is_paper else CRISPNESS) if crispness is None else crispness,
         detail_strength=detail_strength,
     )

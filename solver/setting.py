@@ -41,8 +41,6 @@ class Setting(NamedTuple):
     """whether each of several objects keeps its own"""
     keeps_result: bool = False
     """whether a result does not become outdated by it"""
-    is_strength: bool = False
-    """whether it grows from 0 where a film shows how a shape becomes cubic"""
 
 
 def setting(default: Any, numbers: Sequence[int] = (), **about: Any) -> Callable[..., Any]:

@@ -20,9 +20,6 @@ from ..read.object_frame import placements
 from ..run import pipeline
 from ..run.up_to_date import what_matters
 from ..settings.values import IN_ANIMATION, Settings
-from .sources import on_the_way
-
-_STILL = 1e-9  # of the unit box; less is no movement
 
 
 class FrameSettings(Protocol):
@@ -50,41 +47,25 @@ class Animated:
         """Number of vertices of the visible mesh."""
         return len(mesh_bridge.mesh_of(self.new).vertices)
 
-    def settings(
-        self, overrides: FrameSettings, share: float = 1.0, start: FrameSettings | None = None
-    ) -> Settings:
-        """Return the settings in this frame, a share of the way from others or the original."""
+    def settings(self, overrides: FrameSettings) -> Settings:
+        """Return the settings in this frame."""
         owner = self.source if self.source.type == "MESH" else self.new
-        before = None if start is None else start.settings_for(owner)
-        return replace(on_the_way(before, overrides.settings_for(owner), share), **IN_ANIMATION)
+        return replace(overrides.settings_for(owner), **IN_ANIMATION)
 
 
 class AnimatedGroup:
     """Objects that are solved together.
 
-    `start`: FrameSettings, optional, those that a share of 0 stands for, instead of the original.
-    `is_process`: whether only the settings change from frame to frame. Raises CubicCraftError: they
-    cannot be solved.
+    Raises CubicCraftError: they cannot be solved.
     """
 
-    def __init__(
-        self,
-        objects: Sequence[Animated],
-        overrides: FrameSettings,
-        start: FrameSettings | None = None,
-        *,
-        is_process: bool = False,
-    ):
-        self.objects = objects
-        self._overrides, self._start = overrides, start
+    def __init__(self, objects: Sequence[Animated], overrides: FrameSettings):
+        self.objects, self._overrides = objects, overrides
         self._first = pipeline.prepare([self._in_first_pose(one) for one in objects])
         self._unposed = self._first
-        self._is_process = is_process
-        self._sequence = self._continued(None)
+        self._sequence = solver.FrameSequence(self._first.setup.rest)
         self.moment = ""
         """what the last frame depended on"""
-        self.is_settled = False
-        """whether nothing moved any more at the end of the last frame"""
         self._last: solver.Frames | None = None
 
     @property
@@ -101,39 +82,17 @@ class AnimatedGroup:
     def about(self):
         """What the frames depend on, as values for JSON."""
         members = self._first.pieces
-        start = self._start
         return {
             "objects": [one.source.name for one in self.objects],
-            "from": start and [what_matters(one.settings(start)) for one in self.objects],
             "first": _digest(
                 [(_moment(member), _digest_of_array(member.shape.triangles)) for member in members]
             ),
         }
 
-    def begin_as(self, other: AnimatedGroup) -> None:
-        """Continue from the shape of the same objects with other settings.
-
-        Raises CubicCraftError: the settings do not give the same vertices to the solver.
-        """
-        assert other.state is not None
-        V = self._first.setup.rest.V
-        if V.shape != other.state.pose.shape or not np.allclose(V, other.state.pose, atol=_STILL):
-            raise CubicCraftError(
-                f"{self.name}: there is no way from settings with other Keep Together, Refine or"
-                " Relative To; choose another object to begin as"
-            )
-        self._sequence = self._continued(other.state)
-
     def continue_from(self, state: solver.SequenceState, moment: str, last: solver.Frames) -> None:
         """Continue after a frame that was solved before."""
-        self._sequence = self._continued(state)
+        self._sequence = solver.FrameSequence(self._first.setup.rest, state)
         self.moment, self._last = moment, last
-
-    def _continued(self, state):
-        rest = self._first.setup.rest
-        if self._is_process:
-            return solver.FrameSequence(rest, state, forgotten=0.0)
-        return solver.FrameSequence(rest, state)
 
     @property
     def state(self):
@@ -147,23 +106,22 @@ class AnimatedGroup:
             begin, end = end, end + one.vertices
             yield one, slice(begin, end)
 
-    def solve(self, share: float = 1.0, *, is_again: bool = False):
+    def solve(self):
         """Solve the present frame of the scene; a generator of a phase of the solver each.
 
-        `share`: of the cubeness. `is_again`: take further steps, even if nothing has changed since
-        the last frame. Returns Frames, of all vertices, in the coordinates of their objects. Raises
+        Returns Frames, of all vertices, in the coordinates of their objects. Raises
         CubicCraftError: an object has another number of vertices than in the first frame, or has a
         setting that is invalid.
         """
-        unposed, members, moment = self._read(share)
-        if self._last is None or moment != self.moment or is_again:
+        unposed, members, moment = self._read()
+        if self._last is None or moment != self.moment:
             self._last = yield from self._solve(unposed, members)
             self.moment = moment
         return self._last
 
-    def _read(self, share):
+    def _read(self):
         known = zip(self.objects, self._unposed.pieces, strict=True)
-        unposed = [self._in_first_pose(one, member, share) for one, member in known]
+        unposed = [self._in_first_pose(one, member) for one, member in known]
         members = list(map(self._posed, self.objects, unposed))
         return unposed, members, _digest([_moment(member) for member in members])
 
@@ -171,20 +129,14 @@ class AnimatedGroup:
         self._unposed = pipeline.prepare(unposed, [self._unposed])
         posed = self._unposed.posed(placed(members))
         sequence, settings = self._sequence, pipeline.settings_of_all(posed)
-        is_first = sequence.state is None
         try:
-            stylization = pipeline.stylization_of(
-                posed, is_accelerated=is_first or not self._is_process
-            )
+            stylization = pipeline.stylization_of(posed)
             run = sequence.begin(stylization, settings.max_iterations, settings.tolerance)
             while run.reason is None:
                 yield
                 run.advance()
             yield from sequence.settle(run)
             result = sequence.end(run)
-            self.is_settled = (
-                stylization.displacement <= settings.tolerance * stylization.distance + _STILL
-            )
         except CubicCraftError as error:
             raise CubicCraftError(f"{posed.name}: {error}") from error
         found = pipeline.read_back(posed, result.positions, sequence.turns)
@@ -196,14 +148,12 @@ class AnimatedGroup:
             *(np.concatenate(parts, axis=1) for parts in zip(*frames, strict=True))
         )
 
-    def _in_first_pose(
-        self, one: Animated, known: Member | None = None, share: float = 1.0
-    ) -> Member:
+    def _in_first_pose(self, one: Animated, known: Member | None = None) -> Member:
         """Return an object as Cubify would read it in the first frame, with the present settings.
 
         The bones are there in any case, as they can be read in that pose only.
         """
-        settings = one.settings(self._overrides, share, self._start)
+        settings = one.settings(self._overrides)
         read = replace(settings, keep_pose=known is None)
         found = read_member(one.new, read, known, rigged=one.source)
         return replace(found, settings=settings, bones=known.bones if known else found.bones)

@@ -23,7 +23,6 @@ from ..read.object_frame import placements
 from ..send.targets import check_exporter
 from ..settings.values import Settings
 from .animated import Animated, AnimatedGroup, FrameSettings
-from .even_speed import even_places, largest_steps, resampled
 from .exchange import SUFFIXES
 from .places import BakeOptions, BakeResult, Places
 from .playback import play, shown, stretch
@@ -32,7 +31,6 @@ from .recording import Recording
 from .sources import OF_ALL_FRAMES, animated_settings
 
 _SAVED_EVERY = 10.0  # seconds
-_MOST_SETTLING = 200  # frames after the full cubeness; far more than meshes take
 
 
 @dataclass
@@ -107,7 +105,7 @@ class Bake:
                     f'"{source.name}" or its collection is disabled or excluded; enable it, so that'
                     " its frames can be seen"
                 )
-            animated = {} if self._options.is_process else animated_settings(source)
+            animated = animated_settings(source)
             refused = [animated[name] for name in OF_ALL_FRAMES if name in animated]
             if refused:
                 raise CubicCraftError(
@@ -121,9 +119,6 @@ class Bake:
         """Solve all frames; each turn does a phase of the solver."""
         yield Step(("Preparing",), 0.0, is_long=True)
         self._prepare()
-        if self._options.is_process:
-            yield from self._process_steps()
-            return
         known = min((work.recording.count for work in self._works), default=0)
         numbers = range(known, len(self._options.frames))
         begin = time.perf_counter()
@@ -136,50 +131,15 @@ class Bake:
             try:
                 for work in self._works:
                     if work.recording.count <= number:
-                        yield from self._solve(work, work.group.solve(), texts)
+                        yield from self._solve(work, texts)
             except CubicCraftError as error:
                 self._problems.append(f"Frame {frame}: {error}")
                 break
             if time.perf_counter() > self._next_save:
                 self._save()
 
-    def _process_steps(self):
-        """Raise the cubeness evenly, then go on until nothing moves any more."""
-        last = len(self._options.frames) - 1
-        for work in self._works:
-            group, recording = work.group, work.recording
-            try:
-                yield from self._begin_process(work)
-            except CubicCraftError as error:
-                self._problems.append(str(error))
-                continue
-            while not self._is_stopped and not (recording.count > last and group.is_settled):
-                number = recording.count
-                if number > last + _MOST_SETTLING:
-                    break
-                share = min(number / max(last, 1), 1.0)
-                text = f"{group.name}: {share:.0%}" if number <= last else f"{group.name} settles"
-                try:
-                    yield from self._solve(
-                        work, group.solve(share, is_again=number > last), (text,)
-                    )
-                except CubicCraftError as error:
-                    self._problems.append(str(error))
-                    break
-
-    def _begin_process(self, work):
-        """Solve the first frame of a process that does not begin with the original."""
-        overrides = self._options.process_from
-        if overrides is None or work.recording.count:
-            return
-        first = AnimatedGroup(work.group.objects, overrides, is_process=True)
-        frame = yield from self._solved(first.solve(), (f"{first.name}: where it begins",))
-        work.group.begin_as(first)
-        work.recording.append(frame, first.state, "")
-
     def _prepare(self):
-        if not self._options.is_process:
-            self._scene.frame_set(self._options.start)
+        self._scene.frame_set(self._options.start)
         for source in self._sources:
             try:
                 self._made.append(Animated(source, mesh_bridge.make_seen(source)))
@@ -196,21 +156,16 @@ class Bake:
                 self._problems.append(str(error))
 
     def _work(self, objects):
-        is_process = self._options.is_process
-        start = self._options.process_from
-        group = AnimatedGroup(objects, self._overrides, start, is_process=is_process)
-        options = self._options
+        group = AnimatedGroup(objects, self._overrides)
         path = self._places.recording_of(objects[0].source)
-        about = {**group.about, "start": options.start, "stretch": self._stretch}
-        if options.is_process:
-            about["process"] = len(options.frames)
+        about = {**group.about, "start": self._options.start, "stretch": self._stretch}
         recording = Recording(path, about, group.vertices)
         if recording.state is not None:
             group.continue_from(recording.state, recording.moment, recording.last())
         return _Work(group, recording)
 
-    def _solve(self, work, solving, texts):
-        frame = yield from self._solved(solving, texts)
+    def _solve(self, work, texts):
+        frame = yield from self._solved(work.group.solve(), texts)
         work.recording.append(frame, work.group.state, work.group.moment)
         yield Step(texts, self._factor)
 
@@ -258,21 +213,12 @@ class Bake:
     def _write(self, work):
         recording, names = work.recording, []
         width, ratios = self._smoothing(work)
-        frames, places = recording.count, None
-        if self._options.is_process:
-            frames = len(self._options.frames)
-            everything = recording.pieces(slice(0, work.group.vertices))
-            places = even_places(
-                largest_steps(piece.results(width) for _, piece in everything), frames
-            )
+        frames = recording.count
         for one, vertices in work.group.parts():
             cache, path = self._places.files_of(one.source, recording.folder)
             with new_point_cache(cache, frames, one.vertices) as positions:
                 for columns, piece in recording.pieces(vertices):
-                    results = piece.results(width)
-                    if places is not None:
-                        results = resampled(results, places)
-                    positions[:, columns] = results
+                    positions[:, columns] = piece.results(width)
             self._made.remove(one)
             with shown(one.source, one.new, cache) as baked:
                 options = self._options
@@ -281,14 +227,12 @@ class Bake:
             self.results.append(
                 BakeResult(one.source.name, frames, width, *(round(x, 4) for x in ratios))
             )
-        if self._options.is_process or frames == len(self._options.frames):
+        if frames == len(self._options.frames):
             recording.remove()
         return names
 
     def _smoothing(self, work):
         """Return over how many frames to smooth, and how far vertices jump then."""
-        if self._options.is_process:
-            return 0.0, (0.0, 0.0)  # the original lies still; the speed is made even instead
 
         def everything():
             return (piece for _, piece in work.recording.pieces(slice(0, work.group.vertices)))

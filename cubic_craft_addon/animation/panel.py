@@ -46,7 +46,3 @@ def draw(layout, obj):
     row = layout.row()
     row.enabled = live.current() is None
     buttons.operator(row, "cubic_craft.bake_animation", **_BAKE)
-    layout.prop(properties, "process_from")
-    row = layout.row()
-    row.enabled = live.current() is None
-    buttons.operator(row, "cubic_craft.bake_process", text="Bake Process", icon="MOD_TIME")

@@ -11,12 +11,10 @@ import bpy
 
 from ...solver import CubicCraftError
 from ..environment.file_names import file_stems, folded
-from ..settings.overrides import SettingsOverrides
 from .exchange import SUFFIXES
 from .properties import SOURCE
 
 _UNFINISHED = ".unfinished"  # suffix of the folders of recordings
-_PROCESS = ".process"
 
 
 @dataclass(frozen=True)
@@ -27,10 +25,6 @@ class BakeOptions:
     end: int
     folder: Path
     file_format: str = "CACHE"
-    is_process: bool = False
-    """whether the frames show how the present shape becomes cubic, at even speed"""
-    process_from: SettingsOverrides | None = None
-    """the settings that it begins with; None is the original"""
 
     @property
     def frames(self):
@@ -70,7 +64,7 @@ class Places:
 
     def recording_of(self, source: bpy.types.Object) -> Path:
         """Return the folder of what is solved."""
-        return self._options.folder / f"{self._stem(source)}{_UNFINISHED}"
+        return self._options.folder / f"{self._stems[source]}{_UNFINISHED}"
 
     def files_of(self, source: bpy.types.Object, recording: Path) -> tuple[Path, Path]:
         """Return the point cache to write, and the file that is to play, which may be the same.
@@ -79,7 +73,7 @@ class Places:
         then renamed, or has the file as an input. A cache that is on its way to another format is
         in the folder of its recording, where it is in the way of no file.
         """
-        file_format, stem = self._options.file_format, self._stem(source)
+        file_format, stem = self._options.file_format, self._stems[source]
         played = {_place(path) for path in _played_by_others(source)}
         names = itertools.chain([stem], (f"{stem}.{number}" for number in itertools.count(2)))
         suffix = SUFFIXES[file_format]
@@ -87,9 +81,6 @@ class Places:
         path = next(path for path in paths if _place(path) not in played)
         is_cache = file_format == "CACHE"
         return path if is_cache else recording / f"{stem}{SUFFIXES['CACHE']}", path
-
-    def _stem(self, source):
-        return f"{self._stems[source]}{_PROCESS if self._options.is_process else ''}"
 
 
 def _played_by_others(source: bpy.types.Object) -> Iterator[str]:

@@ -80,21 +80,8 @@ class BakeProperties:
     )
 
 
-def _is_mesh(_properties, obj: bpy.types.Object) -> bool:
-    return obj.type == "MESH"
-
-
 class CubicCraftAnimation(BakeProperties, bpy.types.PropertyGroup):
     """The settings of Cubify Animation, of a scene."""
-
-    process_from: PointerProperty(
-        name="From",
-        description="Object whose settings Bake Process begins with. If empty, it begins with the"
-        " original",
-        type=bpy.types.Object,
-        poll=_is_mesh,
-        options=set(),
-    )
 
 
 def bake_properties(scene: bpy.types.Scene) -> CubicCraftAnimation:

@@ -120,7 +120,7 @@ def _folded(name: PurePath) -> str:
 
 def _check_places(options: Namespace, jobs: list[Job]) -> None:
     """Refuse results in the place of inputs, or that are taken for inputs the next time."""
-    given = (options.handles_file, options.form_object, options.capture)
+    given = (options.handles_file, options.form_object)
     inputs = {path.resolve() for path in (*(job.path for job in jobs), *given) if path}
     for path in (path for job in jobs for path in job.outputs):
         if path.resolve() in inputs:

@@ -50,7 +50,6 @@ def run(options: Namespace, begin: float) -> dict[str, Any]:
 
 def _load(options: Namespace, seconds: dict[str, float]) -> Loaded:
     form = read_form(options.form_object) if options.form_object else None
-    capture = read_form(options.capture) if options.capture else None
     with _timed("load", seconds):
         loaded = load(
             options.input,
@@ -59,7 +58,6 @@ def _load(options: Namespace, seconds: dict[str, float]) -> Loaded:
             is_all_seen=options.with_modifiers,
         )
         loaded.form = make_form(form) if form else None
-        loaded.capture = make_form(capture, options.capture.stem) if capture else None
     return loaded
 
 

@@ -68,11 +68,6 @@ class Kept(Generic[T]):
         known = self._known.get(uid)
         return known[1] if known is not None and known[0] == key else None
 
-    def before(self, uid: int) -> T | None:
-        """Return what was known last, whatever has changed since."""
-        known = self._known.get(uid)
-        return None if known is None else known[1]
-
     def keep(self, uid: int, found: T, key: Hashable = None) -> T:
         """Keep and return what was found, and forget what was kept longest if it is too much.
 
@@ -144,7 +139,6 @@ class FoundLater(Kept[T]):
 
     `find`: finds it for an object; a timer calls it, outside of drawing. `key_of`: returns what it
     depends on besides what Blender reports; this is cheap. `redraw`: draws what shows it.
-    `changed`: as of `Kept`.
     """
 
     def __init__(
@@ -152,9 +146,8 @@ class FoundLater(Kept[T]):
         find: Callable[[Any], T],
         key_of: Callable[[Any], Hashable],
         redraw: Callable[[], None],
-        changed: Callable[[Any], Iterable[int]] = changed_shapes,
     ):
-        super().__init__(changed)
+        super().__init__()
         self._find, self._key_of, self._redraw = find, key_of, redraw
         self._waiting: Callable[[], None] | None = None
 
@@ -163,11 +156,8 @@ class FoundLater(Kept[T]):
         """Whether something is going to be found."""
         return self._waiting is not None and bpy.app.timers.is_registered(self._waiting)
 
-    def now(self, obj: bpy.types.Object, *, or_before: bool = False) -> T | None:
-        """Return what is known about an object; None if it is going to be found.
-
-        With `or_before`, what was known before it had to be found again is returned meanwhile.
-        """
+    def now(self, obj: bpy.types.Object) -> T | None:
+        """Return what is known about an object; None if it is going to be found."""
         known = self.get(obj.session_uid, self._key_of(obj))
         if known is not None:
             return known
@@ -176,7 +166,7 @@ class FoundLater(Kept[T]):
         window = bpy.context.window.as_pointer() if bpy.context.window else 0
         self._waiting = partial(self.find, obj.session_uid, window)
         bpy.app.timers.register(self._waiting, first_interval=PAUSE)
-        return self.before(obj.session_uid) if or_before else None
+        return None
 
     def find(self, uid: int, window: int = 0) -> None:
         """Find it now, if the object is still there.
@@ -210,7 +200,7 @@ class FoundLater(Kept[T]):
 class KeptFrom(Kept[T]):
     """What is made from other objects, kept until Blender reports a change of the object.
 
-    The panel asks for the form and the normal capture at each redraw, and reading a mesh of half a
+    The panel asks for the form at each redraw, and reading a mesh of half a
     million vertices takes a good part of a second. Whatever changes what the viewport shows of an
     object is evaluated by the dependency graph, which then reports the object: edits, modifiers and
     what they depend on, shape keys, transforms.

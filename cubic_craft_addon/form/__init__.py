@@ -2,5 +2,4 @@
 """The form: what a ball would become, and what the surface is turned toward.
 
 ``settings`` has what the artist sets, and ``body`` makes the form for the solver.
-``normal_capture`` is the same for a ball that the artist has shaped.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of the form, to choose another one, its own settings, and the normal capture."""
+"""The picture of the form, to choose another one, and its own settings."""
 
 from typing import Any
 
@@ -30,13 +30,6 @@ def draw(layout: Any, properties: Any, is_shared: bool = True) -> None:
             continue
         own = {} if name in _WITH_OWN_LABEL else {"text": ""}
         _draw_setting(column, properties, name, own, is_shared)
-
-
-def draw_capture(layout: Any, properties: Any) -> None:
-    """Draw the normal capture, and its strength where there is one."""
-    _draw_setting(layout, properties, "capture_object", {})
-    if properties.capture_object:
-        layout.prop(properties, "capture_strength", slider=True)
 
 
 def _draw_setting(layout, properties, name, label, is_shared=True):

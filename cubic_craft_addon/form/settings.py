@@ -23,8 +23,6 @@ class FormSettings(Method):
 
     form_object: bpy.types.Object | None = None
     """the object that an OBJECT or DIRECTIONS form is made from"""
-    capture_object: bpy.types.Object | None = None
-    """the ball whose normals say which way surfaces should face"""
 
 
 def check_form_object(

@@ -58,7 +58,7 @@ def _on_update(_scene, depsgraph):
             or (data.data is not None and data.data.session_uid not in mesh_uids | shown_uids)
         ):
             # Moved, or one of its properties changed: a handle, a frame, or a live object itself;
-            # or another object was edited, which a form or a normal capture may be made from.
+            # or another object was edited, which a form may be made from.
             _session.wake()
         elif isinstance(data, bpy.types.Scene | bpy.types.Collection):
             _session.wake()  # perhaps an object was deleted, of which Blender does not notify us

@@ -149,7 +149,7 @@ def settings_of_run(obj: bpy.types.Object, run: LastRun) -> Settings:
         for name, value in noted.items()
         if value is not None
     }
-    return replace(settings_of(obj, handles=()), **values, capture_object=None)
+    return replace(settings_of(obj, handles=()), **values)
 
 
 def _walls(

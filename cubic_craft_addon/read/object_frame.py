@@ -16,7 +16,6 @@ from ...solver.pieces.placement import Placement, polar
 from ...solver.styles.cube import proper
 from ...solver.styles.style import Style
 from ..form.body import form_of
-from ..form.normal_capture import capture_of, strength_of
 from ..settings.values import Settings
 
 _SAME = 1e-6  # of the elements of a matrix: less is a pose at rest
@@ -102,11 +101,9 @@ def placement_alone(
 
     Raises CubicCraftError: as `stretch_and_orientation`.
     """
-    capture = capture_of(obj, settings)
     turn, stretch = _turn_and_stretch(_world(obj, is_posed))
-    own, *regions = (_style(obj, one, turn, capture) for one in _all(settings))
-    own = replace(own, capture=capture, capture_strength=strength_of(settings))
-    return Placement(stretch, np.zeros(3), np.eye(3), stretch, turn[2], (own, *regions))
+    styles = tuple(_style(obj, one, turn) for one in _all(settings))
+    return Placement(stretch, np.zeros(3), np.eye(3), stretch, turn[2], styles)
 
 
 def _world(obj, is_posed=False):
@@ -126,9 +123,8 @@ def _in_world(obj, world, settings, alone):
     turn, stretch = _turn_and_stretch(world)
     if _is_flat(linear) or not np.isfinite(offset).all():
         return None
-    capture = alone.style.capture
     styles = tuple(
-        replace(style, orientation=_orientation(obj, one, turn, turn.T, style.form, capture))
+        replace(style, orientation=_orientation(obj, one, turn, turn.T, style.form))
         for one, style in zip(_all(settings), alone.styles, strict=True)
     )
     up = np.array([0.0, 0.0, 1.0])
@@ -140,9 +136,9 @@ def _all(settings):
     return [settings, *(settings.of_region(region) for region in settings.regions)]
 
 
-def _style(obj, settings, turn, capture):
+def _style(obj, settings, turn):
     form = form_of(settings)
-    orientation = _orientation(obj, settings, turn, None, form, capture)
+    orientation = _orientation(obj, settings, turn, None, form)
     return Style(
         settings.cubeness,
         orientation,
@@ -152,12 +148,12 @@ def _style(obj, settings, turn, capture):
     )
 
 
-def _orientation(obj, settings, turn, into, form, capture):
+def _orientation(obj, settings, turn, into, form):
     """Return the orientation of a form; `into` leads back from another place."""
     orientation = _axes(settings).T @ _into_space(obj, settings, turn)
     if into is not None:
         orientation = orientation @ into
-    return _simplest(orientation, form is None and capture is None)
+    return _simplest(orientation, form is None)
 
 
 def stretch_and_orientation(obj: bpy.types.Object, settings: Settings):
@@ -258,8 +254,7 @@ def _simplest(orientation, is_plain_cube):
     """Return the rotation that is equivalent for a cube, and the identity where it does nothing.
 
     An object that is rotated by a right angle, as is common for imported files, or mirrored then
-    gives the same bits as one that is not. Other forms, and normal captures, are mirrored as they
-    are.
+    gives the same bits as one that is not. Other forms are mirrored as they are.
     """
     same = np.eye(3)
     if is_plain_cube:

@@ -137,7 +137,7 @@ def restyled(
     return RestyledRun(run, soft, keeps_sides=keeps_sides)
 
 
-def stylization_of(problem: MemberProblem, *, is_accelerated: bool = True) -> solver.Stylization:
+def stylization_of(problem: MemberProblem) -> solver.Stylization:
     """Return a new Stylization with the settings of the members.
 
     Raises CubicCraftError: as `start`, without the name.
@@ -147,7 +147,6 @@ def stylization_of(problem: MemberProblem, *, is_accelerated: bool = True) -> so
     options = solver.SolverOptions(
         device=cast("Device", settings.device.lower()),
         keep_rotation=settings.rotation == "KEEP",
-        is_accelerated=is_accelerated,
     )
     return problem.stylization(options)
 

@@ -85,7 +85,7 @@ class Task:
         """Everything but the mesh that determines the solution; no references to Blender's data."""
         is_free = self.settings.floor != "OFF" and not self.settings.handles
         up = self._alone.up.tobytes() if is_free else b""
-        pointers = {"frame": None, "form_object": None, "capture_object": None}
+        pointers = {"frame": None, "form_object": None}
         regions = tuple(replace(region, form_object=None) for region in self.settings.regions)
         settings = replace(self.settings, regions=regions, **pointers)
         return settings, self._reflections, self._subdivision, up, self._alone.key, self.bones

@@ -10,7 +10,6 @@ import numpy as np
 from ...solver import CubicCraftError
 from ...solver.styles.form_names import OF_OBJECT
 from ..form.body import form_of
-from ..form.normal_capture import has_capture, note_of
 from ..form.settings import FORM_SETTINGS, form_settings
 from ..mesh_bridge import LastRun
 from ..object_properties import object_properties
@@ -41,9 +40,6 @@ def what_matters(settings: Settings) -> dict[str, Any]:
         [region.group, {**region.own, **_form(settings.of_region(region))}]
         for region in settings.regions
     ]
-    values["capture_object"] = note_of(settings)
-    if not has_capture(settings):
-        values["capture_strength"] = None
     values["handles"] = [_handle(handle) for handle in settings.handles]
     values["map_invert"] = bool(settings.map_group) and settings.map_invert
     if settings.result == "NEW_OBJECT":

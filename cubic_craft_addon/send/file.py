@@ -13,7 +13,6 @@ from ...solver import CubicCraftError
 from ...solver.console.output import InputError, replacing
 from .. import mesh_bridge
 from ..environment.scene_state import frame_kept, only_selected
-from .closed import find_faults
 from .marks import armatures_of, marks_of
 from .targets import TARGETS, Options, exporter, settings
 
@@ -77,7 +76,7 @@ def ready(target: str, objects: list[bpy.types.Object], options: Options) -> Ite
     is_modified = kind.is_printed or _can_apply(objects, options, problems)
     facts = [f"{len(objects)} object{'s' * (len(objects) > 1)}"]
     if kind.is_printed:
-        facts.append(_check_printable(objects, options.scale, problems))
+        facts.append(_size_in_words(objects, options.scale))
     chosen = settings(target, objects, options, is_modified=is_modified)
     posed = [] if kind.is_printed else objects
     armatures = {armature for obj in posed for armature in armatures_of(obj)}
@@ -121,29 +120,19 @@ def _can_apply(objects: list[bpy.types.Object], options: Options, problems: list
     return False
 
 
-def extent(objects: list[bpy.types.Object]) -> float:
-    """Return the longest side of the box around objects, as they are seen in the world."""
-    points = [_placed(obj, mesh_bridge.read_evaluated(obj)[0]) for obj in objects]
-    return float(np.ptp(np.concatenate(points), axis=0).max())
+def extent(objects: list[bpy.types.Object]) -> np.ndarray:
+    """Return the sides (3,) of the box around objects, as they are seen in the world."""
+    return np.ptp(np.concatenate([_points_in_world(obj) for obj in objects]), axis=0)
 
 
-def _placed(obj: bpy.types.Object, points: np.ndarray) -> np.ndarray:
+def _points_in_world(obj):
+    points = mesh_bridge.read_evaluated_points(obj)[0]
     matrix = np.array(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world)
     return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-def _check_printable(objects: list[bpy.types.Object], scale: float, problems: list[str]) -> str:
-    """Note which meshes are not closed, and return the size of all in words."""
-    corners = []
-    for obj in objects:
-        points, triangles = mesh_bridge.read_evaluated(obj)
-        placed = _placed(obj, points)
-        corners += [placed.min(axis=0), placed.max(axis=0)]
-        fault = find_faults(points, triangles).in_words()
-        if fault:
-            problems.append(f'"{obj.name}" {fault}; it may not print as it looks')
-    size = np.ptp(np.array(corners), axis=0) * scale
-    return " x ".join(f"{side:,.4g}" for side in size) + " mm"
+def _size_in_words(objects, scale):
+    return " x ".join(f"{side:,.4g}" for side in extent(objects) * scale) + " mm"
 
 
 def _write(run: Callable[[Path], object], path: Path) -> int:
@@ -168,7 +157,7 @@ def scale_of(
     it has the units. `objects`: all that are written.
     """
     if scale == "SIZE":
-        return size / max(extent(objects), 1e-12)
+        return size / max(float(extent(objects).max()), 1e-12)
     if scale == "MILLIMETERS":
         return 1.0
     units = scene.unit_settings

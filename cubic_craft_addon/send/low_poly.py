@@ -72,21 +72,17 @@ def forget_normals(studio: Studio, obj: bpy.types.Object) -> None:
             bpy.ops.mesh.customdata_custom_splitnormals_clear()
 
 
-def choose_uv(
-    studio: Studio, obj: bpy.types.Object, choice: str, resolution: int, name: str
-) -> str:
-    """Return the UV map to bake to, which is made if need be.
+def choose_uv(studio: Studio, obj: bpy.types.Object, resolution: int, name: str) -> str:
+    """Return the UV map to bake to: the active one if no faces overlap in it, otherwise a new one.
 
-    `obj`: an object in the studio, whose mesh has triangles only. `choice`: one of "AUTO", "KEEP",
-    "NEW". `resolution`: of the image; islands stay some of its texels apart. `name`: what the
-    artist calls the object. Returns the name of the UV map, which is active. The one that is
-    rendered stays the same. Raises CubicCraftError: there is none, or no room for one more.
+    `obj`: an object in the studio, whose mesh has triangles only. `resolution`: of the image;
+    islands stay some of its texels apart. `name`: what the artist calls the object. Returns the
+    name of the UV map, which is active. The one that is rendered stays the same. Raises
+    CubicCraftError: there is no room for one more.
     """
     mesh: Any = obj.data
     active = mesh.uv_layers.active
-    if choice == "KEEP" and active is None:
-        raise CubicCraftError(f'"{name}" has no UV map to keep; choose Auto or New')
-    if active is not None and (choice == "KEEP" or (choice == "AUTO" and _is_usable(mesh))):
+    if active is not None and _is_usable(mesh):
         return active.name
     layer = mesh.uv_layers.new(name="Normal Map" if active is not None else "UVMap")
     if layer is None:

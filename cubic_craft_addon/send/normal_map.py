@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,15 +17,12 @@ from ...solver import CubicCraftError
 from ...solver.pieces.placement import Placement
 from .. import hidden_source, mesh_bridge
 from ..environment.file_names import file_stem
-from ..measure.facets import flat_facets, settings_of_run
+from ..measure.facets import settings_of_run
 from ..read.object_frame import placement_alone
 from . import low_poly
 from .bake import Studio, bake_normals, check_cycles, studio
 from .few_polygons import few_polygons
-from .properties import IMAGE
 from .split import OldSurface
-
-_ANGLE, _TOLERANCE = math.radians(20.0), 0.02  # the defaults of Flatten Facets
 
 
 class MapMaterials:
@@ -110,8 +106,6 @@ class MapOptions:
 
     triangles: int = 1000
     resolution: int = 1024
-    flatten: bool = False
-    uv: str = "AUTO"
 
 
 @dataclass(frozen=True)
@@ -179,7 +173,6 @@ def _make(
     mesh_bridge.check_usable(obj)
     mesh_bridge.end_preview(mesh_bridge.mesh_of(obj))
     present = mesh_bridge.result_positions(obj)
-    flat = flat_facets(obj, _ANGLE, _TOLERANCE).positions if options.flatten else present
     with studio() as stage, contextlib.ExitStack() as passing:
         high_mesh = _mesh_of_result(stage, obj, present)
         passing.callback(bpy.data.meshes.remove, high_mesh)
@@ -189,11 +182,11 @@ def _make(
         offsets = mesh_bridge.key_offsets(mesh_bridge.mesh_of(obj))
         keys = _keys_as_seen(stage, obj, present, offsets, seen)
         surface = OldSurface(seen, triangles, keys)
-        low_mesh = _low_mesh(stage, obj, flat, placement, options.triangles, surface)
+        low_mesh = _low_mesh(stage, obj, present, placement, options.triangles, surface)
         undo.callback(bpy.data.meshes.remove, low_mesh)
         low = passing.enter_context(_stand_in(stage, obj, low_mesh))
         rendered = next((layer.name for layer in low_mesh.uv_layers if layer.active_render), "")
-        uv_map = low_poly.choose_uv(stage, low, options.uv, options.resolution, obj.name)
+        uv_map = low_poly.choose_uv(stage, low, options.resolution, obj.name)
         low_poly.set_hard_edges(low_mesh, uv_map)
         image = bpy.data.images.new(
             f"{obj.name} Normal", options.resolution, options.resolution, is_data=True
@@ -215,7 +208,6 @@ def _make(
     undo.callback(bpy.data.objects.remove, new)
     _pose(new, low_mesh, f"{obj.name} Low")
     mesh_bridge.transfer_keys(mesh_bridge.mesh_of(obj), new, seen, triangles, keys)
-    setattr(new, IMAGE, image)
     return NormalMap(new, image, apart, problems)
 
 
@@ -262,7 +254,7 @@ def _low_mesh(
     triangles: int,
     surface: OldSurface,
 ) -> bpy.types.Mesh:
-    """Return a new mesh: the flattened result with its modifiers, not posed, in few triangles.
+    """Return a new mesh: the result with its modifiers, not posed, in few triangles.
 
     `surface`: the result with its modifiers, and its shape keys.
     """

@@ -29,7 +29,6 @@ ALL = tuple(name for name in SETTINGS if name != "start")
 POINTERS = {
     "frame": lambda values: values.get("space") == "FRAME",
     "form_object": lambda values: values.get("form") in OF_OBJECT,
-    "capture_object": lambda values: "capture_strength" in values,
 }
 """settings that are objects, and whether other settings ask for them; in the operator and in Live
 they are given by name"""
@@ -138,6 +137,7 @@ def _find(setting, name, active):
         return own  # not by its name, which an object of a library may also have
     found = bpy.data.objects.get(name)
     if found is None:
-        kind = setting.replace("_", " ") if setting != "capture_object" else "normal capture"
-        raise CubicCraftError(f'there is no object "{name}"; pick another {kind}')
+        raise CubicCraftError(
+            f'there is no object "{name}"; pick another {setting.replace("_", " ")}'
+        )
     return found

@@ -13,7 +13,7 @@ from ..form.settings import form_property
 from ..handles import Handle
 from ..handles.pose import object_handles
 from ..handles.properties import CubicCraftHandle
-from ..mesh_bridge import KINDS, last_run, shade_edges
+from ..mesh_bridge import last_run, shade_edges
 from ..object_properties import PROPERTY, object_properties
 from ..presets.selector import preset_property
 from ..regions.region import CubicCraftRegion, Region, object_regions
@@ -61,10 +61,6 @@ class RunProperties:
         def __setattr__(self, name: str, value: Any) -> None: ...
 
 
-def _may_be_capture(properties, obj):
-    return obj.type in KINDS and obj != properties.id_data
-
-
 class CubicCraftProperties(RunProperties, bpy.types.PropertyGroup):
     """The settings of an object, saved with it."""
 
@@ -74,13 +70,6 @@ class CubicCraftProperties(RunProperties, bpy.types.PropertyGroup):
         name="Frame", description="Object whose axes the form uses", type=bpy.types.Object
     )
     form_object: form_property("form_object")
-    capture_object: PointerProperty(
-        name="Normal Capture",
-        description="Ball that you have shaped. Its normals show how the surfaces of the mesh turn:"
-        " each as the ball did where it faced the same direction",
-        type=bpy.types.Object,
-        poll=_may_be_capture,
-    )
     handles: CollectionProperty(name="Handles", type=CubicCraftHandle)
     active_handle: IntProperty(
         name="Active Handle",

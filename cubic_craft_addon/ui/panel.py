@@ -5,7 +5,6 @@ import bpy
 
 from ...solver import CubicCraftError
 from .. import job, live, mesh_bridge
-from ..angles import overlay as angles_overlay
 from ..animation import panel as animation_panel
 from ..environment.ahead import load_ahead
 from ..environment.modes import is_mode_usable
@@ -23,7 +22,6 @@ from ..run.up_to_date import changes_since
 from ..screen.text_fit import draw_wrapped, is_narrow
 from ..send import panel as send_panel
 from ..settings.properties import settings_of
-from ..worn import panel as worn
 from . import buttons, edited, header, seen, status_panel
 from .settings_rows import draw_advanced, draw_solver, draw_volume
 from .symmetry_panel import draw_symmetry
@@ -97,7 +95,6 @@ def _draw_cubify(context, layout, obj):
     status_panel.draw(context, layout, obj, run, changes)
     if hint:
         seen.draw_hint(layout, hint)
-    worn.draw(context, layout, obj)
     seen.draw_source(layout, obj)
     animation_panel.draw_animated(context, layout, obj)
 
@@ -117,9 +114,7 @@ def _draw_problem(context, layout, text):
 
 def _draw_orientation(layout, obj):
     properties = live.shared_properties(obj)
-    row = layout.row(heading="Show")
-    row.prop(bpy.context.window_manager, form_overlay.PROPERTY, text="Form")
-    row.prop(bpy.context.window_manager, angles_overlay.PROPERTY, text="Angles")
+    layout.prop(bpy.context.window_manager, form_overlay.PROPERTY)
     layout.prop(properties, "space")
     if properties.space == "FRAME":
         if live.current():
@@ -139,7 +134,6 @@ def _draw_shape(layout, obj):
     title_row, body = layout.panel(_ADVANCED, default_closed=True)
     title_row.label(text="Advanced")
     if body is not None:
-        form_panel.draw_capture(body, properties)
         body.prop_search(live.own_properties(obj), "detail_group", obj, "vertex_groups")
         draw_advanced(body, properties)
 

@@ -19,7 +19,7 @@ from cubic_craft.solver.console.interruption import end_on_signals  # noqa: E402
 from cubic_craft.solver.console.output import InputError  # noqa: E402
 
 PROGRAM = "figures"
-ALL = ["1", "2", "3", "5", "6", "character", "forms", "captures"]
+ALL = ["1", "2", "3", "5", "6", "character", "forms"]
 """figures; the fourth is a picture of the window tests"""
 
 

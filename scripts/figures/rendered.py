@@ -59,7 +59,6 @@ FIGURES = {
         _versions("bear", "bear", versions.by_form, has_original=False, is_shaded=True),
         700,
     ),
-    "captures": Figure("figure_captures", _versions("monkey", "monkey", versions.by_capture), 460),
 }
 
 

@@ -13,7 +13,7 @@ from mathutils import Euler, Matrix
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import Group
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import FINISHES, surface
 from cubic_craft.cubic_craft_addon.command_line.reading.form_mesh import FormMesh, make_form
-from cubic_craft.cubic_craft_addon.mesh_bridge import read_values, shade_shape
+from cubic_craft.cubic_craft_addon.mesh_bridge import shade_shape
 from cubic_craft.cubic_craft_addon.settings.values import Settings
 
 from .figure_meshes import AS_IN_THE_PAPER, FigureMeshes, stand_beside
@@ -22,10 +22,8 @@ HOUSE = ((-0.6, -0.5), (0.6, -0.5), (0.6, 0.3), (0.0, 0.8), (-0.6, 0.3))
 """outline of the object that a form is made from, seen along Y"""
 HALF_LENGTH = 0.7
 """along Y"""
-SIDES = 14
-"""planes that the hewn ball is cut along"""
-CUBE, BALL = 0.2, 0.17
-"""edge and radius of what stands beside a mesh, relative to its largest side"""
+CUBE = 0.2
+"""edge of what stands beside a mesh, relative to its largest side"""
 BEVEL = 0.06
 """relative to the edge"""
 
@@ -117,52 +115,6 @@ def by_form() -> list[Version]:
         "object: a house": {"form": "OBJECT", "form_object": _house()},
     }
     return [Version(label, {"cubeness": 0.6, **form}) for label, form in forms.items()]
-
-
-def by_capture() -> list[Version]:
-    """Return normal captures, with the ball of each."""
-    clay = surface("Ball", *FINISHES["clay"])
-    versions = []
-    for label, shape in (
-        ("a cushion", _squared),
-        ("a hewn stone", _hewn),
-        ("a spinning top", _spun),
-    ):
-        ball = _ball(shape, clay)
-        settings = {"cubeness": 0.0, "capture_object": ball, "capture_strength": 0.6}
-        versions.append(Version(label, settings, ball, BALL))
-    return versions
-
-
-def _hewn(d: np.ndarray) -> np.ndarray:
-    """Return the directions (n,3) on a stone with flat sides, all about as far away."""
-    golden = np.pi * (3.0 - np.sqrt(5.0)) * np.arange(SIDES)
-    z = 1.0 - (2.0 * np.arange(SIDES) + 1.0) / SIDES
-    r = np.sqrt(1.0 - z * z)
-    planes = np.stack([r * np.cos(golden), r * np.sin(golden), z], axis=1)
-    return d / (d @ planes.T).max(axis=1)[:, None]
-
-
-def _spun(d: np.ndarray) -> np.ndarray:
-    """Return the directions (n,3) on a spinning top: two cones with a round edge."""
-    radius = np.hypot(d[:, 0], d[:, 1])
-    return d / (radius**1.3 + np.abs(d[:, 2]) ** 1.3)[:, None] ** (1 / 1.3)
-
-
-def _squared(d: np.ndarray) -> np.ndarray:
-    """Return the directions (n,3) on a cushion with sides and round edges."""
-    return d / (np.abs(d) ** 6).sum(axis=1)[:, None] ** (1 / 6)
-
-
-def _ball(shape: Callable[[np.ndarray], np.ndarray], clay: bpy.types.Material) -> bpy.types.Object:
-    """Return a ball whose vertices have been moved along their directions, in no scene."""
-    edited = bmesh.new()
-    bmesh.ops.create_icosphere(edited, subdivisions=6, radius=1.0)
-    ball = _object("Ball", edited, clay)
-    directions = read_values(ball.data.vertices, "co", width=3).astype(np.float64)
-    directions /= np.linalg.norm(directions, axis=1)[:, None]
-    ball.data.vertices.foreach_set("co", shape(directions).astype(np.float32).ravel())
-    return ball
 
 
 def _cube(clay: bpy.types.Material) -> bpy.types.Object:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Build the zips: the extension as it is, the wheels, their licenses and a bill of materials."""
+"""Build the zips: the extension as it is, the wheels and their licenses."""
 
-import shutil
 import tempfile
 import zipfile
 from pathlib import Path
@@ -9,17 +8,15 @@ from pathlib import Path
 import tomlkit
 from build_extension import build
 
-from .bom import bill_of_materials
 from .fetch import fetch
 from .targets import SIZE_LIMIT_BYTES
 from .third_party import write_third_party
 
 MANIFEST = "blender_manifest.toml"
-BILL = "sbom.cdx.json"
 
 
 def build_package(package, plain, output, is_upload=False):
-    """Build a package, with its bill of materials beside it.
+    """Build a package.
 
     `package`: what is wanted. `plain`: Path, the zip of the extension without wheels. `output`:
     Path, folder of the zips. `is_upload`: bool, whether the version is that for the extensions
@@ -34,7 +31,6 @@ def build_package(package, plain, output, is_upload=False):
         manifest = _complete(source, package, wheels, is_upload)
         target = output / package.file_name(manifest["version"])
         build(target, source)
-        shutil.copy(source / BILL, target.with_suffix(".cdx.json"))
     if target.stat().st_size >= SIZE_LIMIT_BYTES:
         raise SystemExit(f"{target.name} has {SIZE_LIMIT_BYTES:,} bytes or more")
     return target
@@ -51,5 +47,4 @@ def _complete(source, package, wheels, is_upload):
     manifest["wheels"] = [f"./wheels/{path.name}" for path in wheels]
     manifest.update(package.blender_versions())
     (source / MANIFEST).write_text(tomlkit.dumps(manifest))
-    (source / BILL).write_text(bill_of_materials(manifest.unwrap(), wheels, credits))
     return manifest.unwrap()

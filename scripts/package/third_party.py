@@ -30,7 +30,7 @@ _HEAD = """\
 
 The folder `wheels` holds these packages as their authors published them on the Python package
 index, unchanged. Their licence texts are in the folder `licences`. CubicCraft itself is under
-GPL-3.0-or-later, see `LICENSE`. The same list for machines: `sbom.cdx.json`.
+GPL-3.0-or-later, see `LICENSE`.
 """
 
 

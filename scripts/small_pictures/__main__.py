@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Render the pictures of presets and forms in the panel, or those for the extensions platform."""
+"""Render the pictures of presets or forms in the panel."""
 
 import argparse
 import sys
@@ -11,14 +11,12 @@ sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names 
 import bpy  # noqa: E402, F401  # it has bmesh, which others import
 
 from cubic_craft import registered  # noqa: E402
-from small_pictures import bear, feature, forms  # noqa: E402
+from small_pictures import bear, forms  # noqa: E402
 
 KINDS = {
     # what renders all, or only those that are named; samples
     "presets": (bear.render_presets, 64),
     "forms": (forms.render_forms, 256),
-    "icon": (bear.render_icon, 64),
-    "feature": (feature.render_feature, 64),
 }
 
 

@@ -22,9 +22,8 @@ class NumpyLocalStep:
 
     `rest`: RestMesh. `lam`: (n,), cubeness. `Q`: (n,3,3) or (1,3,3), orientation of the form: maps
     a vector into its frame. `options`: AdmmOptions. `form`: Cube or Polytopes, what the normals are
-    drawn to. `captured`: (n,4), optional, unit normals that they are drawn to besides, and how
-    strongly, per area; see `LocalProblem`. `normals`: (n,3), optional, unit normals at rest, or
-    zero; by default those of the surface as it is.
+    drawn to. `normals`: (n,3), optional, unit normals at rest, or zero; by default those of the
+    surface as it is.
 
     `R`: (n,3,3), rotations, the identity at first. `resolution`: distance in the unit box below
     which everything is rounding.
@@ -34,7 +33,7 @@ class NumpyLocalStep:
     compile_seconds = 0.0
     resolution = 1e-9
 
-    def __init__(self, rest, lam, Q, options, form: Any = CUBE, captured=None, normals=None):
+    def __init__(self, rest, lam, Q, options, form: Any = CUBE, normals=None):
         self._rest = rest
         normals = rest.normals if normals is None else normals
         self._options = options
@@ -48,12 +47,9 @@ class NumpyLocalStep:
         n = len(rest.V)
         self.R = np.tile(np.eye(3), (n, 1, 1))
         lam = local_cubeness(rest.areas, normals, lam)
-        captured = local_captured(rest.areas, normals, captured)
         nothing = np.zeros((n, 3, 3))
-        self._rest_problem = LocalProblem(
-            nothing, by_columns(normals), by_columns(Q), lam, form, captured
-        )
-        self._normal_weight = self._rest_problem.weights(rest.areas)
+        self._rest_problem = LocalProblem(nothing, by_columns(normals), by_columns(Q), lam, form)
+        self._normal_weight = lam * rest.areas
         self._states = self._rest_problem.starting(self.R)
 
     def motion(self, setup, U, constraints=()):
@@ -85,7 +81,7 @@ class NumpyLocalStep:
         is_worse = np.flatnonzero(problem.is_worse(R, last))
         R[is_worse], states[is_worse] = last[is_worse], self._states[is_worse]  # or energy rises
         self.R, self._states = R, states
-        fit, cost = problem.energy_terms(self.R)
+        fit, cost = problem.costs(self.R)
         trace = self._rest.topology.sum_parts(fit * self._area_scale)
         arap = self._rest_quadratic + self._quadratic(U) - trace
         return arap, self._rest.topology.sum_parts(self._normal_weight * cost)
@@ -113,11 +109,3 @@ def area_scale(areas):
 def local_cubeness(areas, normals, lam):
     """Return the cubeness (n,) with which the L1 term stands beside the divided ARAP term."""
     return np.where((areas > SMALLEST_AREA) & normals.any(axis=1), lam, 0.0)
-
-
-def local_captured(areas, normals, captured):
-    """Return captured normals (n,4) without those of vertices that have no normal, or None."""
-    if captured is None:
-        return None
-    strength = local_cubeness(areas, normals, captured[:, 3])
-    return np.where(strength > 0.0, captured.T, 0.0).T

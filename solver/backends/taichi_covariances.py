@@ -10,7 +10,7 @@ the rest.
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
 # pyright: reportIndexIssue=false
 
-from ..algebra import dot, outer, times
+from ..algebra import dot, outer
 from .engine import ti
 
 
@@ -36,23 +36,3 @@ def covariance(
         S += kind.mat3(ti.static(outer(*gather[entry], *edge)))
         quadratic += weights[entry] * ti.static([dot(*edge, *edge)])[0]
     return S, quadratic
-
-
-@ti.func
-def drawn(kind: ti.template(), S, normal, captured):
-    """Return S with what draws the normal to a captured one, given with its strength (4,)."""
-    pull = kind.vec3(captured[0], captured[1], captured[2]) * captured[3]
-    return S + kind.mat3(ti.static(outer(*normal, *pull)))
-
-
-@ti.func
-def with_capture(kind: ti.template(), terms, R, normal, captured, area_scale, cubeness):
-    """Return the energies of a vertex with that of its captured normal, see `NormalCapture`."""
-    target = kind.vec3(captured[0], captured[1], captured[2])
-    rotated = kind.vec3(ti.static(times(*R, *normal)))
-    off = target - rotated
-    return kind.vec3(
-        terms[0],
-        terms[1] - captured[3] * target.dot(rotated) * area_scale,
-        cubeness * terms[2] + captured[3] * off.dot(off) / 2,
-    )

@@ -23,21 +23,19 @@ from ..algebra import nearer_to_orthogonal, times
 from .engine import ti
 from .kernel_types import kernel_types, state_types
 from .taichi_active_set import Kind, rotation_near
-from .taichi_covariances import covariance, drawn, with_capture
+from .taichi_covariances import covariance
 from .taichi_faces import rotation_on_faces
 from .taichi_lanes import make_local_step as in_lanes
 
 
-def make_kernels(real, width, is_captured=False, has_lanes=False):
+def make_kernels(real, width, has_lanes=False):
     """Return the kernels `local_step` and `right_hand_side`.
 
     `real`: ti.f64 or ti.f32. `width`: of the states of vertices: 3 for the cube, 4 for polytopes.
-    `is_captured`: whether normals are drawn to captured ones; else `captured` is not read.
     `has_lanes`: whether the processor computes a few vertices at once; for the cube, and not on a
     GPU. The kernel is then not given `face_tables`.
     """
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
-    _, vectors4 = state_types(real, 4)
     _, states = state_types(real, width)
     kind = Kind(real)
     is_cube = width == 3
@@ -56,9 +54,8 @@ def make_kernels(real, width, is_captured=False, has_lanes=False):
         q_stride: ti.i32,
         R: matrices,
         subgradients: states,
-        energies: vectors,  # per vertex: sum w |d|^2, and the `energy_terms` of a `LocalProblem`
+        energies: vectors,  # per vertex: sum w |d|^2, and the `costs` of a `LocalProblem`
         certified: integers,  # where 0, the rotation is the last one
-        captured: vectors4,
         frames: matrices,  # as `face_tables` returns them
         numbers: integers,
         targets: integers,
@@ -70,8 +67,6 @@ def make_kernels(real, width, is_captured=False, has_lanes=False):
         for i in range(lam.shape[0]):
             S, quadratic = covariance(kind, i, U, indptr, indices, gather, weights)
             S /= area_scale[i]
-            if ti.static(is_captured):
-                S = drawn(kind, S, normals[i], captured[i])
             present = R[i]
             last = mat3(ti.static(nearer_to_orthogonal(*present)))
             if ti.static(is_cube):
@@ -103,10 +98,6 @@ def make_kernels(real, width, is_captured=False, has_lanes=False):
                 subgradients[i] = s
                 energies[i] = vec3(quadratic, fit * area_scale[i], cost)
                 certified[i] = ti.cast(is_certified, ti.i32)
-            if ti.static(is_captured):
-                energies[i] = with_capture(
-                    kind, energies[i], R[i], normals[i], captured[i], area_scale[i], lam[i]
-                )
 
     @ti.kernel
     def right_hand_side(
@@ -121,5 +112,5 @@ def make_kernels(real, width, is_captured=False, has_lanes=False):
                 total += vec3(ti.static(times(*R[j], *scatter[entry])))
             rhs[i] = total / 3
 
-    of_rotations: Any = in_lanes(kind, is_captured) if has_lanes else local_step
+    of_rotations: Any = in_lanes(kind) if has_lanes else local_step
     return SimpleNamespace(local_step=of_rotations, right_hand_side=right_hand_side)

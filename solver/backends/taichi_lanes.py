@@ -14,19 +14,18 @@ last one has its rotation.
 from ..algebra import nearer_to_orthogonal, product, transposed
 from ..styles.active_set import MAX_STEPS
 from .engine import ti
-from .kernel_types import kernel_types, state_types
+from .kernel_types import kernel_types
 from .taichi_active_set import fit_and_cost, in_frame, step
-from .taichi_covariances import covariance, drawn, with_capture
+from .taichi_covariances import covariance
 
 LANES = 4
 """vertices; as many numbers of 64 bit are in a vector of AVX2"""
 
 
-def make_local_step(kind, is_captured):
+def make_local_step(kind):
     """Return the kernel `local_step` as `make_kernels` does, without `face_tables`."""
     real = kind.real
     vec3, mat3, scalars, integers, vectors, matrices = kernel_types(real)
-    _, vectors4 = state_types(real, 4)
     places9 = ti.types.vector(9, ti.i32)  # whatever the default type of integers is
     lanes1, lanes3, lanes9 = (ti.types.vector(size * LANES, real) for size in (1, 3, 9))
 
@@ -70,7 +69,6 @@ def make_local_step(kind, is_captured):
         subgradients: vectors,
         energies: vectors,
         certified: integers,
-        captured: vectors4,
     ):
         count = lam.shape[0]
         for block in range((count + LANES - 1) // LANES):
@@ -83,8 +81,6 @@ def make_local_step(kind, is_captured):
                 i = ti.min(block * LANES + k, count - 1)
                 S, square = covariance(kind, i, U, indptr, indices, gather, weights)
                 S /= area_scale[i]
-                if ti.static(is_captured):
-                    S = drawn(kind, S, normals[i], captured[i])
                 set_matrix(l_S, at, S)
                 set_matrix(l_R, at, R[i])
                 set_matrix(l_Q, at, Q[i * q_stride])
@@ -139,9 +135,5 @@ def make_local_step(kind, is_captured):
                     fit[k], cost[k] = new_fit, new_cost
                 energies[i] = vec3(quadratic[k], fit[k] * area_scale[i], cost[k])
                 certified[i] = ti.cast(is_done[k], ti.i32)
-                if ti.static(is_captured):
-                    energies[i] = with_capture(
-                        kind, energies[i], R[i], normals[i], captured[i], area_scale[i], lam[i]
-                    )
 
     return local_step

@@ -14,7 +14,7 @@ from . import taichi_runtime
 from .arrays import arrays_for
 from .engine_lock import alone
 from .face_tables import face_tables
-from .numpy_local_step import area_scale, local_captured, local_cubeness
+from .numpy_local_step import area_scale, local_cubeness
 from .rows import HostRows
 from .warmup import warm_up
 
@@ -39,13 +39,12 @@ class _Arguments(NamedTuple):
     subgradients: Any
     energies: Any
     certified: Any
-    captured: Any
 
 
 class TaichiLocalStep:
     """Rotations from positions, and the right-hand side of the global step from rotations.
 
-    `rest`, `lam`, `Q`, `options`, `form`, `captured`, `normals`: as in `NumpyLocalStep`.
+    `rest`, `lam`, `Q`, `options`, `form`, `normals`: as in `NumpyLocalStep`.
     `precision`: by default f64 where the device has it.
 
     Attributes
@@ -70,7 +69,6 @@ class TaichiLocalStep:
         Q,
         options,
         form: Any = CUBE,
-        captured=None,
         normals=None,
         *,
         device="cpu",
@@ -87,18 +85,17 @@ class TaichiLocalStep:
         # the other is as quick.
         is_worth_it = form.width == CUBE.width and len(rest.V) >= LANES_FROM
         has_lanes = is_worth_it and runtime.device == "taichi-cpu"
-        self._kernels = _kernels(precision, form.width, captured is not None, has_lanes)
+        self._kernels = _kernels(precision, form.width, has_lanes)
         self.precision, self.real = precision, real
         self.arrays = arrays_for(runtime.device)
         n = len(rest.V)
         lam = local_cubeness(rest.areas, normals, lam)
         self._options = options
-        captured = local_captured(rest.areas, normals, captured)
         # for what the kernel does not certify; the covariances come with the positions
         all_Q = np.broadcast_to(Q, (n, 3, 3))
         nothing = np.zeros((n, 3, 3))
-        self._rest_problem = LocalProblem(nothing, normals, all_Q, lam, form, captured)
-        self._normal_weight = self._rest_problem.weights(rest.areas)
+        self._rest_problem = LocalProblem(nothing, normals, all_Q, lam, form)
+        self._normal_weight = lam * rest.areas
         self._arguments = self._make_arguments(Q)
         self._tables = ()
         if not has_lanes:
@@ -120,7 +117,6 @@ class TaichiLocalStep:
     def _make_arguments(self, Q):
         m, rest, keep = self._rest.matrices, self._rest, self._keep
         identity = np.tile(np.eye(3), (len(rest.V), 1, 1))
-        captured = self._rest_problem.captured
         return _Arguments(
             indptr=self.arrays.keep(m.indptr),
             indices=self.arrays.keep(m.indices),
@@ -135,7 +131,6 @@ class TaichiLocalStep:
             subgradients=keep(self._rest_problem.starting(identity)),
             energies=keep(np.zeros((len(rest.V), 3))),
             certified=self.arrays.keep(np.zeros(len(rest.V), np.int32)),
-            captured=keep(np.zeros((1, 4)) if captured is None else captured),  # else never read
         )
 
     def _make_rows(self):
@@ -231,7 +226,7 @@ class TaichiLocalStep:
         is_worse = problem.is_worse(R, last)  # so that no iteration raises the energy
         R = np.where(is_worse[:, None, None], last, R)
         s = np.where(is_worse[:, None], last_s, s)
-        fit, cost = problem.energy_terms(R)
+        fit, cost = problem.costs(R)
         self._rows.put(rows, R, s, fit * area_scale(self._rest.areas[rows]), cost)
 
     @alone
@@ -265,8 +260,8 @@ class TaichiLocalStep:
 
 
 @cache
-def _kernels(precision, width, is_captured, has_lanes):
+def _kernels(precision, width, has_lanes):
     from .engine import ti
     from .taichi_kernels import make_kernels
 
-    return make_kernels(ti.f64 if precision == "f64" else ti.f32, width, is_captured, has_lanes)
+    return make_kernels(ti.f64 if precision == "f64" else ti.f32, width, has_lanes)

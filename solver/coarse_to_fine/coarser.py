@@ -34,9 +34,6 @@ def coarser_style(style: SolvedStyle, setup: Setup) -> SolvedStyle:
         style.Q[first] if len(style.Q) > 1 else style.Q[0],
         style.forms or None,
         form_of=style.form_of[first] if style.forms else None,
-        capture=style.captures or None,
-        capture_strength=_means(cluster, style.mu, free),
-        capture_of=style.capture_of[first] if style.captures else None,
     )
     found = solved_style(of_clusters, coarse, keep_rotation=True, normals=normals)
     return replace(found, cubeness=_means(cluster, style.cubeness, free))

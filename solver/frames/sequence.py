@@ -91,9 +91,6 @@ class FrameSequence:
         The mesh in the first frame.
     state : SequenceState, optional
         Of an earlier sequence from the same first frame, which continues.
-    forgotten : float
-        Share f of the deformation that is dropped from frame to frame; 0 for a mesh that does not
-        move while its style changes.
 
     Examples
     --------
@@ -112,10 +109,8 @@ class FrameSequence:
     ['0.06', '0.05']
     """
 
-    def __init__(
-        self, first: RestMesh, state: SequenceState | None = None, forgotten: float = FORGOTTEN
-    ):
-        self._first, self._forgotten = first, forgotten
+    def __init__(self, first: RestMesh, state: SequenceState | None = None):
+        self._first = first
         self.state = state  # the last frame that was solved
 
     @property
@@ -170,16 +165,15 @@ class FrameSequence:
         far as that is still near.
         """
         stylization = run.stylization
-        if self.state is None and self._forgotten:
+        if self.state is None:
             for _ in range(SETTLING):
-                R, positions = self._partly_forgotten(self._state_of(run))
+                R, positions = _partly_forgotten(self._state_of(run))
                 stylization.start_from(R, positions)
                 for _ in range(STEPS):
                     stylization.step()
                     yield
         if is_hardened(stylization):
-            # a mesh that does not move ends as it does alone
-            before = self.state.facing if self.state is not None and self._forgotten else None
+            before = self.state.facing if self.state is not None else None
             run.harden(before if before is not None and len(before) else None)
             while run.reason is None:
                 yield
@@ -203,18 +197,16 @@ class FrameSequence:
         assert before is not None
         turns = fit_rotations(self._first.matrices.covariances(V), before.turns)
         T = turns @ before.turns.swapaxes(1, 2)
-        R, positions = self._partly_forgotten(before)
+        R, positions = _partly_forgotten(before)
         moved = np.einsum("nij,nj->ni", T, positions - before.pose)
         stylization.start_from(T @ R @ T.swapaxes(1, 2), V + moved)
         return turns
 
-    def _partly_forgotten(self, state):
-        """Return the rotations (n,3,3) and positions (n,3) of a state, a share nearer to rest."""
-        share = self._forgotten
-        if not share:
-            return state.rotations, state.positions
-        R = (1.0 - share) * state.rotations + share * np.eye(3)
-        is_opposite = np.trace(state.rotations, axis1=1, axis2=2) < -0.5  # no rotation lies between
-        R[is_opposite] = state.rotations[is_opposite]
-        R = orthonormalize(R, _ORTHONORMALIZATIONS)
-        return R, state.pose + (1.0 - share) * (state.positions - state.pose)
+
+def _partly_forgotten(state):
+    """Return the rotations (n,3,3) and positions (n,3) of a state, a share nearer to rest."""
+    R = (1.0 - FORGOTTEN) * state.rotations + FORGOTTEN * np.eye(3)
+    is_opposite = np.trace(state.rotations, axis1=1, axis2=2) < -0.5  # no rotation lies between
+    R[is_opposite] = state.rotations[is_opposite]
+    R = orthonormalize(R, _ORTHONORMALIZATIONS)
+    return R, state.pose + (1.0 - FORGOTTEN) * (state.positions - state.pose)

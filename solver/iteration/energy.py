@@ -18,7 +18,7 @@ class Energy:
     arap: float
     """of the as-rigid-as-possible deformation"""
     cubic: float
-    """of the normals, which is lowest along the axes of the cube, and along captured ones"""
+    """of the normals, which is lowest along the axes of the cube"""
 
     @property
     def total(self) -> float:

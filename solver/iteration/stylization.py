@@ -154,7 +154,6 @@ class Stylization(Stored):
             style.Q,
             options.admm or AdmmOptions(),
             polytopes(style.forms, style.form_of),
-            style.captured,
             style.normals,
         )
 

@@ -149,8 +149,7 @@ def _are_images(one, other, linear):
     if (first.form and first.form.key) != (second.form and second.form.key):
         return False
     turn = np.asarray(first.orientation) @ linear @ np.transpose(second.orientation)
-    is_captured = first.capture is not None or second.capture is not None
-    return looks_alike(turn, first.form, is_captured)
+    return looks_alike(turn, first.form)
 
 
 def _values_of(pieces) -> FloatArray:

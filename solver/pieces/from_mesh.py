@@ -49,7 +49,7 @@ def piece_of(
         Triangles. Polygons are split into triangles.
     style : Style, optional
         What it is turned toward, the same for all vertices; by default a crisp cube of cubeness 0.4
-        along the axes of the world. Its capture is also that of the regions.
+        along the axes of the world.
     name : str
         For messages.
     matrix : (4,4) array, optional
@@ -65,11 +65,10 @@ def piece_of(
     hold_rest : bool
         Whether regions far from moved handles keep their place.
     regions : sequence of Style
-        Without captures of their own.
     region_shares : (n,1+k) array, optional
         Shares of the object's own style and of each region; each row adds up to 1.
     map_weights : (n,) array, optional
-        Factors of the cubeness, of the strength of the capture and of the crispness.
+        Factors of the cubeness and of the crispness.
     detail_weights : (n,) array, optional
         Factors of the strength of details.
 
@@ -116,7 +115,7 @@ def piece_of(
     own = _uniform(Style(0.4, crispness=CRISPNESS) if style is None else style, "style")
     regions = _several(regions, "regions", Style)
     handles = _several(handles, "handles", HandlePose)
-    others = [_without_capture(_uniform(region, "regions")) for region in regions]
+    others = [_uniform(region, "regions") for region in regions]
     place = matrix_of(np.eye(4) if matrix is None else matrix, "matrix")
     if abs(np.linalg.det(place[:3, :3])) == 0.0:
         raise CubicCraftError("matrix flattens the object: a scale is zero; give another one")
@@ -185,21 +184,14 @@ def _shares(values, count, regions):
 
 
 def _uniform(style, name):
-    forms, captures = instance(style, name, Style).forms, style.captures
-    numbers = style.cubeness, style.capture_strength, style.crispness, style.detail_strength
+    forms = instance(style, name, Style).forms
+    numbers = style.cubeness, style.crispness, style.detail_strength
     is_one = not any(map(np.ndim, numbers)) and np.shape(style.orientation) == (3, 3)
-    if not is_one or len(forms) > 1 or len(captures) > 1:
+    if not is_one or len(forms) > 1:
         raise CubicCraftError(
             f"{name} must be the same for all vertices of a piece; use map_weights or regions"
         )
-    form, capture = next(iter(forms), None), next(iter(captures), None)
-    return replace(style, form=form, form_of=None, capture=capture, capture_of=None)
-
-
-def _without_capture(style):
-    if style.capture is not None:
-        raise CubicCraftError("regions cannot have captures; the one of the style is for all")
-    return style
+    return replace(style, form=next(iter(forms), None), form_of=None)
 
 
 def _check(shape, name, *expected):

@@ -24,7 +24,7 @@ from .piece import Piece
 def joined_style(pieces: Sequence[Piece]) -> Style:
     """Return what the vertices of all pieces are turned toward."""
     found, counts = [_of_piece(piece) for piece in pieces], [piece.solved for piece in pieces]
-    style = _with_captures(Style(_joined_cubeness(found, counts), _joined(found, counts)), pieces)
+    style = Style(_joined_cubeness(found, counts), _joined(found, counts))
     style = _with_hardening(style, pieces)
     distinct, number = numbered([body for one in found for body in one.bodies])
     if not any(distinct):
@@ -97,26 +97,3 @@ def _with_hardening(style, pieces):
 def _is_one(styles, pieces):
     weights = [piece.detail_weights for piece in pieces]
     return all(one.detail_strength == 1.0 for one in styles) and not any(map(np.ndim, weights))
-
-
-def _with_captures(style, pieces):
-    """Return a style with the captures of all pieces.
-
-    Where the cubeness map is 0, nothing has to face anywhere.
-    """
-    found = [piece.placement.style for piece in pieces]
-    distinct = list(dict.fromkeys(one.capture for one in found if one.capture is not None))
-    if not distinct:
-        return style
-    numbers, strengths = [], []
-    for piece, one in zip(pieces, found, strict=True):
-        strength = 0.0 if one.capture is None else one.capture_strength
-        strengths.append(piece.everywhere(strength * piece.map_weights))
-        number = 0 if one.capture is None else distinct.index(one.capture)
-        numbers.append(np.full(piece.solved, number))
-    return replace(
-        style,
-        capture=distinct,
-        capture_strength=np.concatenate(strengths),
-        capture_of=np.concatenate(numbers),
-    )

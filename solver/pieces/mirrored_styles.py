@@ -55,18 +55,15 @@ def _placed(reflection, placement):
 
 
 def _look_alike(turn, placement):
-    is_captured = placement.style.capture is not None
     for style in placement.styles:
         Q = np.asarray(style.orientation)
-        if not looks_alike(Q @ turn @ Q.T, style.form, is_captured):
+        if not looks_alike(Q @ turn @ Q.T, style.form):
             return False
     return True
 
 
-def looks_alike(turn, form, is_captured):
-    """Return whether the form looks the same after a turn or reflection; captures never do."""
-    if is_captured:
-        return np.abs(turn - np.eye(3)).max() <= _ALIKE
+def looks_alike(turn, form):
+    """Return whether the form looks the same after a turn or reflection."""
     if form is not None:
         costs = form.cost(form.normals @ turn.T)
         return bool(np.abs(costs - form.offsets).max() <= _ALIKE * form.radius)

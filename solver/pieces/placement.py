@@ -34,8 +34,8 @@ class Placement:
     """(3,) unit vector that points up in the world"""
     styles: tuple[Style, ...]
     """of the object itself and of each of its regions. Each orientation maps these coordinates into
-    the form's frame; for a cube without a capture it is one of the 24 that are the same, else of a
-    mirrored object a reflection. The capture of the first is that of all"""
+    the form's frame; for a cube it is one of the 24 that are the same, else of a mirrored object a
+    reflection"""
 
     @property
     def style(self) -> Style:
@@ -50,9 +50,9 @@ class Placement:
     @property
     def key(self) -> tuple[Any, ...]:
         """All values but the cubeness and strengths, for comparison bit for bit."""
-        shape, capture = self.shape_key, _key_of(self.style.captures)
+        shape = self.shape_key
         own, *regions = (
-            (shape, np.asarray(style.orientation).tobytes(), _key_of(style.forms), capture)
+            (shape, np.asarray(style.orientation).tobytes(), _key_of(style.forms))
             for style in self.styles
         )
         return own, *((region,) for region in regions)

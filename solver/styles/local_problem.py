@@ -4,8 +4,6 @@
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
 from ..algebra import columns, from_columns, product, take, times, trace
 from ..aliases import FloatArray
 from .cube import CUBE
@@ -16,14 +14,10 @@ BETTER = 1e-9
 
 @dataclass(frozen=True)
 class LocalProblem:
-    """min over R in SO(3) of lam h(Q R n) - tr(R S), of n vertices at once.
-
-    Normals that are drawn to captured ones t add mu (1 - t.R n). That is linear in R, so it is part
-    of S, as mu n t', and costs nothing more to minimize.
-    """
+    """min over R in SO(3) of lam h(Q R n) - tr(R S), of n vertices at once."""
 
     S: FloatArray
-    """(n,3,3) covariances, divided by the vertex areas, and mu n t'"""
+    """(n,3,3) covariances, divided by the vertex areas"""
     normals: FloatArray
     """(n,3) unit normals, or zero where `lam` is"""
     Q: FloatArray
@@ -32,21 +26,15 @@ class LocalProblem:
     """(n,) cubeness"""
     form: Any = CUBE
     """Cube or Polytopes: what the costs h are"""
-    captured: FloatArray | None = None
-    """(n,4) t and mu, both zero where nothing is captured; None for nowhere"""
 
     def part(self, rows):
         """Return the problems of some rows, by number."""
         S, normals, lam = (take(a, rows) for a in (self.S, self.normals, self.lam))
         Q = self.Q if len(self.Q) == 1 else take(self.Q, rows)
-        captured = None if self.captured is None else self.captured[rows]
-        return LocalProblem(S, normals, Q, lam, self.form.part(rows), captured)
+        return LocalProblem(S, normals, Q, lam, self.form.part(rows))
 
     def with_covariances(self, S):
-        """Return the problems for other covariances (n,3,3), without captured normals."""
-        if self.captured is not None:
-            pull = self.captured[:, :3] * self.captured[:, 3:]
-            S = S + self.normals[:, :, None] * pull[:, None, :]
+        """Return the problems for other covariances (n,3,3)."""
         return replace(self, S=S)
 
     def form_normals(self, R):
@@ -74,22 +62,3 @@ class LocalProblem:
     def _gain(self, R, last):
         (fit, now), (last_fit, before) = self.costs(R), self.costs(last)
         return (self.lam * before - last_fit) - (self.lam * now - fit)
-
-    def energy_terms(self, R):
-        """Return tr(R S) of the covariances alone, and what the normals cost, both (n,).
-
-        The latter is h(Q R n), which counts `weights` times; with captured normals it is
-        lam h(Q R n) + mu (1 - t.R n).
-        """
-        fit, cost = self.costs(R)
-        if self.captured is None:
-            return fit, cost
-        target, strength = self.captured[:, :3], self.captured[:, 3]
-        rotated = np.einsum("nij,nj->ni", R, self.normals)
-        off = target - rotated  # its square is 2 - 2 t.R n, and exact where that is almost nothing
-        fit = fit - strength * (target * rotated).sum(axis=1)
-        return fit, self.lam * cost + 0.5 * strength * (off * off).sum(axis=1)
-
-    def weights(self, areas):
-        """Return how much what the normals cost counts (n,) in the energy, for areas (n,)."""
-        return self.lam * areas if self.captured is None else areas

@@ -2,7 +2,6 @@
 """A style at the vertices that are solved, as the local step takes it."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +16,6 @@ from ..mesh.mesh_checks import per_vertex
 from ..surface.details import unit
 from ..surface.rest import RestMesh
 from ..values import Value
-from .normal_capture import NormalCapture, targets_for
 from .polytope import Polytope
 from .style import Style
 
@@ -30,19 +28,13 @@ class SolvedStyle(Value):
     """(n,) as given; 0 at pins, whose rotations would otherwise shear the pinned part"""
     lam: FloatArray
     """(n,) what counts of it, see `RestMesh.cubic_shares`"""
-    mu: FloatArray
-    """(n,) strength of the capture"""
     orientation: FloatArray
-    """(1,3,3) or (n,3,3) as given; captures are seen in it"""
+    """(1,3,3) or (n,3,3) as given"""
     Q: FloatArray
     """(1,3,3) or (n,3,3) the same, turned so that limbs and boxes lie along their forms"""
     forms: list[Polytope]
     """empty for the cube"""
     form_of: IntArray
-    """(n,) int"""
-    captures: list[NormalCapture]
-    """empty for none"""
-    capture_of: IntArray
     """(n,) int"""
     normals: FloatArray
     """(n,3) unit normals at rest that the cubic term sees, or zero"""
@@ -51,16 +43,9 @@ class SolvedStyle(Value):
     detail_strength: FloatArray
     """(n,) relative to the details at rest; 1 at pins"""
     is_drawn: BoolArray
-    """(n,) bool, where normals are drawn to the form, and to nothing else"""
+    """(n,) bool, where normals are drawn to the form"""
     in_limb: FloatArray
     """(n,) share of each vertex in limbs, from 0 to 1"""
-
-    @cached_property
-    def captured(self) -> FloatArray | None:
-        """(n,4) normals that those at rest are drawn to besides, and how strongly; or None."""
-        if not self.captures:
-            return None
-        return targets_for(self.captures, self.capture_of, self.mu, self.orientation, self.normals)
 
     def with_crispness(self, crispness: ArrayLike, setup: Setup) -> "SolvedStyle | None":
         """Return the style with another crispness, None if that is 0 at other vertices."""
@@ -78,7 +63,7 @@ class SolvedStyle(Value):
     def posed(self, before: RestMesh, after: RestMesh) -> "SolvedStyle":
         """Return the style in another pose: only the normals have turned, as the surface has."""
         turned = after.normals - before.normals
-        if self.forms or self.captures:
+        if self.forms:
             turned = turned * after.outward
         is_drawn = np.any(self.normals, axis=1)
         normals = unit(np.where(is_drawn[:, None], self.normals + turned, 0.0))
@@ -104,27 +89,22 @@ def solved_style(
     cubeness = _at_free(style.cubeness, "cubeness", setup, at_pins=0.0)
     lam = cubeness * rest.cubic_shares
     orientation = _orientation(style, rest)
-    forms, captures = style.forms, style.captures
+    forms = style.forms
     form_of = _numbers(style.form_of, "form_of", len(forms), rest)
-    capture_of = _numbers(style.capture_of, "capture_of", len(captures), rest)
     if normals is None:
         normals = rest.cubic_normals
         if not style.is_plain_cube:
             normals = normals * rest.outward
-    mu = np.zeros_like(lam)
-    if captures:
-        mu = _at_free(style.capture_strength, "capture_strength", setup, at_pins=0.0)
-        mu = mu * rest.normal_counts
     own = orientation
     if keep_rotation and not forms:
-        own = _along_boxes(orientation, rest.box_frames[0], mu == 0.0)
+        own = _along_boxes(orientation, rest.box_frames[0])
     Q, in_limb = _along_limbs(own, limbs, forms, form_of, setup)
     if own is not orientation:
         Q = np.where(rest.box_frames[1][:, None, None], own, Q)
     crispness = _at_free(style.crispness, "crispness", setup, at_pins=0.0)
-    is_drawn = (cubeness > 0.0) & (mu == 0.0)
+    is_drawn = cubeness > 0.0
     return SolvedStyle(
-        *(cubeness, lam, mu, orientation, Q, forms, form_of, captures, capture_of, normals),
+        *(cubeness, lam, orientation, Q, forms, form_of, normals),
         np.where(is_drawn, np.minimum(crispness, 1.0), 0.0),
         _at_free(style.detail_strength, "detail_strength", setup, at_pins=1.0),
         is_drawn,
@@ -196,13 +176,12 @@ def _at_solved(limbs, rest):
     return share_known > 0.0, Limbs(limbs.directions, csr_matrix(shares), carried=limbs.carried)
 
 
-def _along_boxes(Q, frames, is_free):
-    """Return those of rotated boxes instead, see `proxy/boxes`, where nothing is captured (n,)."""
+def _along_boxes(Q, frames):
+    """Return those of rotated boxes instead, see `proxy/boxes`."""
     if frames is None:
         return Q
     turn = np.abs(Q @ frames.swapaxes(1, 2))
     is_askew = frames.any(axis=(1, 2)) & (np.minimum(turn, 1.0 - turn).max(axis=(1, 2)) > 1e-9)
-    is_askew &= is_free
     if not is_askew.any():
         return Q
     return np.where(is_askew[:, None, None], frames, Q)

@@ -11,7 +11,6 @@ from ..errors import CubicCraftError
 from ..inputs import instances
 from ..values import Value
 from .forms import cube, named
-from .normal_capture import NormalCapture
 from .polytope import Polytope
 
 CRISPNESS = 0.9
@@ -50,13 +49,6 @@ class Style(Value):
     """what the normals are drawn to, by name or see `forms`, or several; None for the cube"""
     form_of: ArrayLike | None = field(default=None, kw_only=True)
     """(N,) int, which of several forms each vertex has"""
-    capture: NormalCapture | Sequence[NormalCapture] | None = field(default=None, kw_only=True)
-    """how the normals should turn, in the frame of the form, or several such; None if they are
-    free"""
-    capture_strength: ArrayLike = field(default=0.0, kw_only=True)
-    """a number, or (N,) of them: weight mu of the capture, in addition to the cubeness"""
-    capture_of: ArrayLike | None = field(default=None, kw_only=True)
-    """(N,) int, which of several captures each vertex has"""
     crispness: ArrayLike = field(default=0.0, kw_only=True)
     """a number from 0 to 1, or (N,) of them: how far the sides of the cubic shape are made flat and
     its edges straight, see `hardening`"""
@@ -71,17 +63,14 @@ class Style(Value):
         elif isinstance(form, Sequence):
             form = [(named(one) or cube()) if isinstance(one, str) else one for one in form]
         object.__setattr__(self, "form", form)  # frozen
-        for name, values, of in (
-            ("form", self.forms, self.form_of),
-            ("capture", self.captures, self.capture_of),
-        ):
-            if len(values) > 1 and of is None:
-                raise CubicCraftError(
-                    f"{len(values)} values of {name} are given, but not which of them each vertex"
-                    f" has; give {name}_of, or only one"
-                )
-            if of is not None and not values:
-                raise CubicCraftError(f"{name}_of needs values of {name} to choose from; give them")
+        count = len(self.forms)
+        if count > 1 and self.form_of is None:
+            raise CubicCraftError(
+                f"{count} values of form are given, but not which of them each vertex has; give"
+                " form_of, or only one"
+            )
+        if self.form_of is not None and not count:
+            raise CubicCraftError("form_of needs values of form to choose from; give them")
 
     @property
     def forms(self) -> list[Polytope]:
@@ -89,11 +78,6 @@ class Style(Value):
         return [] if self.form is None else instances(self.form, "form", Polytope)
 
     @property
-    def captures(self) -> list[NormalCapture]:
-        """The captures as a list; empty for none. Raises CubicCraftError: they are none."""
-        return [] if self.capture is None else instances(self.capture, "capture", NormalCapture)
-
-    @property
     def is_plain_cube(self) -> bool:
         """Whether a turn by a right angle, or a mirror image, is the same."""
-        return self.form is None and self.capture is None
+        return self.form is None

@@ -57,7 +57,7 @@ def test_labels_of_the_user_guide_are_those_of_the_panel(part):
     groups += [
         getattr(bpy.ops.cubic_craft, name).get_rna_type() for name in dir(bpy.ops.cubic_craft)
     ]
-    labels = {"Show Form", "Show Angles"} | {group.name for group in groups}
+    labels = {"Show Form"} | {group.name for group in groups}
     for prop in [prop for group in groups for prop in group.properties]:
         labels |= {prop.name} | {item.name for item in getattr(prop, "enum_items", ())}
     labels |= {name.replace("_", " ") for name in part("presets.included").INCLUDED}

@@ -47,7 +47,7 @@ def bake_normal_map():
     """Bake to a file of the same name each time."""
     for path in Path(bpy.data.filepath).parent.glob("*.png"):
         path.unlink()
-    return bpy.ops.cubic_craft.bake_normal_map(flatten=False, triangles=300, resolution=64)
+    return bpy.ops.cubic_craft.bake_normal_map(triangles=300, resolution=64)
 
 
 # What was done before, what fails, and what is there once it does not.

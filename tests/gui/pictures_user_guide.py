@@ -16,9 +16,8 @@ import bpy
 import guidrive as gui
 import live_scene as scene
 import numpy as np
-from bpy_extras.view3d_utils import location_3d_to_region_2d
 from guidrive.pictures import save_screen
-from mathutils import Euler, Vector
+from mathutils import Euler
 from preset_menu import choose_preset, keep_and_remove
 
 SCALE = 1.5  # of Blender's interface: sharper pictures
@@ -113,7 +112,7 @@ def set_the_stage():
 
 def open_last():
     """Click on the headers of the last sections, each below the last button that is open."""
-    buttons = ("sharp_edges", "bake_process", "bake_normal_map")
+    buttons = ("sharp_edges", "bake_animation", "bake_normal_map")
     for button in (f"cubic_craft.{name}" for name in buttons):
         above = yield from gui.find_button(button)
         yield from gui.click((above.at(0.5)[0], round(above.bottom - 20 * SCALE)))
@@ -259,26 +258,6 @@ def picture_of_map():
         bpy.ops.cubic_craft.restore()
 
 
-def picture_of_angles():
-    """Cubify, and color the surface by its angles to the form; low in the view, by the legend."""
-    with gui.in_region():
-        bpy.ops.cubic_craft.cubify(cubeness=0.8)
-    bpy.context.window_manager.cubic_craft_angles = True
-    view, seen = gui.region(), gui.area().spaces.active.region_3d
-    place = seen.view_location.copy()
-    seen.view_perspective = "ORTHO"  # does not distort what is far from the middle
-    yield from gui.wait_redraw()
-    up = seen.view_rotation @ Vector((0.0, 1.0, 0.0))
-    low, high = (location_3d_to_region_2d(view, seen, at)[1] for at in (place, place + up))
-    seen.view_location = place + up * ((low - 0.5 * view.width) / (high - low))
-    picture = yield from whole("angles_view", shows_view=True)
-    cut(picture, "angles", view.x, view.y, view.x + view.width, view.y + 0.9 * view.width)
-    seen.view_perspective, seen.view_location = "PERSP", place
-    bpy.context.window_manager.cubic_craft_angles = False
-    with gui.in_region():
-        bpy.ops.cubic_craft.restore()
-
-
 def add_handles():
     """Pin the chin, let the ear follow an empty, and go back to the monkey."""
     monkey = bpy.data.objects[scene.NAME]
@@ -324,7 +303,6 @@ def test():
     yield from picture_of_changed()
     yield from picture_of_presets()
     yield from picture_of_live()
-    yield from picture_of_angles()
     yield from picture_of_map()
     yield from add_handles()
     yield from add_region()

@@ -22,7 +22,6 @@ HEIGHTS = {
     "figure_5_cubeness": 460,
     "figure_6_orientations": 520,
     "figure_forms": 700,
-    "figure_captures": 460,
 }
 """of a picture of 1600 pixels"""
 RED, GREEN, BLUE = range(3)
@@ -66,10 +65,7 @@ def test_each_picture_has_its_size_and_shows_something(pictures, name):
 
 @pytest.mark.parametrize(
     "name",
-    [
-        *("figure_1_teaser", "figure_5_cubeness", "figure_6_orientations", "figure_forms"),
-        "figure_captures",
-    ],
+    ["figure_1_teaser", "figure_5_cubeness", "figure_6_orientations", "figure_forms"],
 )
 def test_cubic_meshes_are_green_and_touch_no_border(pictures, name):
     picture = pictures[name]

@@ -55,7 +55,6 @@ OPTIONS = {
     "unknown option": (["ok.obj", "--cubenes", "1"], ["--cubenes"]),
     "missing file": (["none.obj"], ["none.obj", "no such file"]),
     "a folder": (["folder.obj"], ["folder.obj", "--output-folder"]),
-    "capture": (["ok.obj", "--capture", "none.obj"], ["none.obj", "no such file"]),
     "unknown format": (["ok.xyz"], ["ok.xyz", ".xyz", ".obj"]),
     "no suffix": (["ok"], ["ok", "suffix"]),
     "empty file": (["empty.obj"], ["empty.obj", "empty"]),

@@ -170,7 +170,6 @@ def test_report(results):
     by_default |= {"together": "selection", "refine": "auto", "rotation": "keep"}
     off = {"symmetry": "auto", "floor": "auto", "hold_rest": "on", "with_modifiers": False}
     form = {"form": "cube", "form_sides": 6, "form_weights": [1.0, 1.0, 1.0], "region": []}
-    form["capture_strength"] = None
     form |= {"form_directions": "", "orientation": [0.0] * 3, "map": "", "detail_map": ""}
     assert report["settings"] == {**form, "space": "world", **by_default, **off}
     assert [run["cubeness"] for run in runs] == [0.0, 0.5]

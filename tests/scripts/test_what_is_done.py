@@ -33,7 +33,6 @@ ALLOWED = {
     ("solver/backends/engine_lock.py", "ctypes"),  # keeps Taichi's program for ever
     ("solver/surface/memory.py", "ctypes"),  # asks Windows how much memory is free
     ("scripts/build_extension.py", "subprocess"),  # Blender's own tool
-    ("scripts/benchmark_live.py", "subprocess"),
     (f"{COMMAND_LINE}/reading/trial.py", "subprocess"),  # a Blender that may crash
     ("scripts/package/fetch.py", "subprocess"),  # pip
 }

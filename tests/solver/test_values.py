@@ -12,7 +12,6 @@ from solver import (
     Frames,
     FrameSequence,
     Mirror,
-    NormalCapture,
     Pose,
     ProxyOptions,
     Setup,
@@ -40,7 +39,7 @@ def setup(height=1.0, pinned=(0,)):
 def stylization(cubeness=0.4):
     return Stylization(
         setup(),
-        Style(cubeness, capture=NormalCapture(AXES, AXES)),
+        Style(cubeness),
         options=SolverOptions(device="numpy"),
     )
 
@@ -88,7 +87,6 @@ MADE = {
         lambda: Frames(np.zeros((5, 1, 3)), TURNS, np.zeros((5, 1, 3))),
     ),
     "state": (state, lambda: state(3)),
-    "capture": (lambda: NormalCapture(AXES, AXES), lambda: NormalCapture(AXES, AXES[:, [1, 0, 2]])),
     "form": (forms.octahedron, forms.icosahedron),
 }
 

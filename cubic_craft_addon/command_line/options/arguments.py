@@ -129,13 +129,6 @@ def _add_method(add: Adder) -> None:
         " with a number of sides, hat:prism5:1; where its weights are less than 1, it blends into"
         " the rest",
     )
-    add(
-        "--capture",
-        type=Path,
-        metavar="FILE",
-        help="file with a ball whose normals say which way a surface should face that faces as its"
-        " vertices do from the origin of its scene",
-    )
     pins = "vertex groups that stay in place"
     add("--pin", nargs="+", default=[], metavar="GROUP", help=pins)
     handles = "parts of the mesh that are held or moved, see below"

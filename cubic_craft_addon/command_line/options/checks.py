@@ -38,8 +38,8 @@ def _check_forms(options: Namespace) -> None:
         raise InputError('--form faces: give its directions, --form-directions "0 0 1, 1 0 0"')
     if options.form_object is not None and not needs_file:
         raise InputError("--form-object: is for --form object and --form directions")
-    for path in filter(None, (options.form_object, options.capture)):
-        check_source(path, READABLE)
+    if options.form_object is not None:
+        check_source(options.form_object, READABLE)
 
 
 def _check_bake(options: Namespace) -> None:
@@ -114,7 +114,7 @@ def _check_single(options: Namespace) -> None:
     for option, path in (("--bake", options.bake), ("--report", options.report)):
         if path:
             outputs[option] = [path]
-    sources = (options.input, options.handles_file, options.form_object, options.capture)
+    sources = (options.input, options.handles_file, options.form_object)
     for option, paths in outputs.items():
         check_writable(option, paths)
         for source in filter(None, sources):

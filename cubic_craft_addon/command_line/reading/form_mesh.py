@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a form or a normal capture is made from: the meshes of a file of its own."""
+"""What a form is made from: the meshes of a file of its own."""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -40,8 +40,8 @@ def read_form(path: Path) -> FormMesh:
     return FormMesh(np.concatenate(points), np.concatenate(triangles))
 
 
-def make_form(form: FormMesh, name: str = "Form") -> bpy.types.Object:
+def make_form(form: FormMesh) -> bpy.types.Object:
     """Make an object that is in no scene, so that nothing of it is written."""
-    mesh = bpy.data.meshes.new(name)
+    mesh = bpy.data.meshes.new("Form")
     mesh.from_pydata(form.points.tolist(), [], form.triangles.tolist())
-    return bpy.data.objects.new(name, mesh)
+    return bpy.data.objects.new("Form", mesh)

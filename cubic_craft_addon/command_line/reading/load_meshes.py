@@ -70,8 +70,6 @@ class Loaded:
     """not just one object that was named"""
     form: bpy.types.Object | None = None
     """what the form is made from"""
-    capture: bpy.types.Object | None = None
-    """what the normal capture is made from"""
     covered: list[str] = field(default_factory=list)
     """names of objects of which what is seen was taken, as nothing else would be"""
 

@@ -216,7 +216,6 @@ def settings_of_object(
     return Settings(
         **{**values, "cubeness": options.cubeness[0]},
         form_object=loaded.form,
-        capture_object=loaded.capture,
         handles=handles,
         regions=_regions(obj, options),
         start=start_of(obj),

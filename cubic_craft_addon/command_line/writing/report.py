@@ -33,11 +33,10 @@ def report_of(
     "bake" took, and "total".
     """
     settings = {name: getattr(options, name) for name in sorted(SETTINGS)}
-    strength = options.capture_strength if options.capture else None
     return {
         "versions": _versions(),
         "notices": new_engine_warnings(),
-        "settings": {**settings, "capture_strength": strength},
+        "settings": settings,
         **about,
         "seconds": seconds,
     }

@@ -25,7 +25,6 @@ CASES = {
     "form": ("CUBE", "OCTAHEDRON"),
     "form_sides": (3, 6),
     "form_weights": ((1.0, 1.0, 1.0), (0.0, 0.0, 1.0)),
-    "capture_strength": (0.0, 1.0),
     "orientation": ((0.0, 0.0, 0.0), (0.5, 0.4, 0.0)),
     "space": ("WORLD", "OBJECT"),
     "use_handles": (False, True),
@@ -107,13 +106,6 @@ def prepare(obj, name):
         settings.map_group = "Half"
     if name == "space":
         obj.rotation_euler = (0.4, 0.3, 0.0)
-    if name == "capture_strength":
-        bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
-        ball = bpy.context.object
-        for vertex in ball.data.vertices:
-            vertex.co.z *= 0.2
-        settings.capture_object = ball
-        select(obj)
     if name == "floor":
         obj.location.z = 1.0 - min(vertex.co.z for vertex in obj.data.vertices)
 
@@ -252,4 +244,3 @@ def test_what_cannot_be_animated_is_refused_by_name(extension, bending, tmp_path
     with pytest.raises(RuntimeError, match=f'"Ball": {label} cannot be animated'):
         bpy.ops.cubic_craft.bake_animation(folder=str(tmp_path))
     assert not [*tmp_path.iterdir()]
-    assert bpy.ops.cubic_craft.bake_process(folder=str(tmp_path)) == {"FINISHED"}

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from scene import add_monkey, cubify, select
+from scene import add_monkey
 from solids import add_solid
 
 
@@ -214,50 +214,3 @@ def test_without_our_handlers_nothing_is_kept(cache, counted, body, monkeypatch)
         assert len(counted) == 2 and is_empty(cache)
     finally:
         bpy.app.handlers.depsgraph_update_post.append(cache._on_update)
-
-
-def add_capture():
-    """Add the monkey and a stretched ball that is its normal capture."""
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, location=(9, 0, 0))
-    ball = bpy.context.object
-    ball.data.transform(Matrix.Diagonal((1, 1, 2, 1)))
-    monkey = add_monkey()
-    monkey.cubic_craft.capture_object = ball
-    return monkey, ball
-
-
-def test_a_normal_capture_is_read_once_for_the_run_and_once_for_the_panel(cache, counted, part):
-    settings_of = part("settings.properties").settings_of
-    capture_of, note_of = (
-        part("form.normal_capture").capture_of,
-        part("form.normal_capture").note_of,
-    )
-    monkey, ball = add_capture()
-
-    def look():
-        settings = settings_of(monkey)
-        return capture_of(monkey, settings), note_of(settings)
-
-    first = look()
-    assert look() == first and look() == first
-    assert len(counted) == 2
-    stretch(ball.data)
-    ball.data.update()
-    again = look()
-    assert again[0] is not first[0] and again[1] != first[1]
-    assert len(counted) == 4
-    ball.rotation_euler.x = 0.5
-    assert look()[0] is not again[0]
-
-
-def test_a_capture_is_another_one_once_its_ball_is_cubified_and_when_it_is_applied(cache, part):
-    settings_of = part("settings.properties").settings_of
-    capture_of = part("form.normal_capture").capture_of
-    monkey, ball = add_capture()
-    before = capture_of(monkey, settings_of(monkey))
-    select(ball)
-    cubify(max_iterations=20, refine="OFF")
-    cubic = capture_of(monkey, settings_of(monkey))
-    assert cubic is not before
-    bpy.ops.cubic_craft.apply()
-    assert capture_of(monkey, settings_of(monkey)).key != cubic.key

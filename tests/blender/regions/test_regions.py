@@ -172,21 +172,6 @@ def test_facets_of_each_region_are_made_planar():
     assert np.count_nonzero(box & (heights < 0.0)) > 50
 
 
-def test_the_angles_are_those_to_the_form_of_the_region(part):
-    angles_now = part("angles.overlay").angles_now
-    ball = add_ball()
-    add_group(ball, "Top", upper)
-    add_region(ball, "Top", form="OCTAHEDRON", cubeness=2.0)
-    cubify(cubeness=2.0, **OPTIONS)
-    for levels in (0, 1):
-        ball.modifiers.new("Subdivision", "SUBSURF").levels = levels
-        ball.cubic_craft.use_regions = True
-        bpy.context.view_layer.update()
-        with_regions = angles_now(ball).aligned
-        ball.cubic_craft.use_regions = False
-        assert with_regions > angles_now(ball).aligned + 0.1
-
-
 @pytest.mark.parametrize(
     ("damage", "words"),
     [

@@ -43,8 +43,8 @@ OTHER = {
     for name, each in SETTINGS.items()
     if not each.of_forms and not each.is_of_mesh
 } | {"map_group": ([LEFT], "Cubeness Map"), "result": (["SHAPE_KEY"], "Write To")}
-for each in ("device", "capture_strength", "form"):
-    del OTHER[each]  # which changes nothing, nothing by itself, or more
+for each in ("device", "form"):
+    del OTHER[each]  # which changes nothing, or more
 
 
 @pytest.mark.thorough(5)
@@ -76,7 +76,7 @@ def test_several_are_listed_once_each_and_an_update_clears_them(changes):
     ("name", "value"),
     [
         *(("device", "NUMPY"), ("map_invert", True), ("use_handles", False)),
-        *(("result", "NEW_OBJECT"), ("capture_strength", 0.3)),
+        ("result", "NEW_OBJECT"),
     ],
 )
 def test_what_would_not_change_the_shape_does_not_count(changes, name, value):

@@ -196,13 +196,6 @@ def test_stl_is_closed_and_in_millimeters(tmp_path, options, factor):
     assert np.einsum("ij,ij->", a, np.cross(b, c)) > 0, "inside out"
 
 
-def test_stl_names_what_is_inside_out(tmp_path):
-    add_ball()
-    bpy.context.object.data.flip_normals()
-    printed = reports_of(lambda: send("STL", tmp_path / "ball.stl"))
-    assert '"Ball" is inside out' in printed
-
-
 @by_target
 @pytest.mark.parametrize("keys", [True, False])
 def test_nothing_changes(tmp_path, target, keys):
@@ -263,24 +256,6 @@ def test_the_suffix_is_that_of_the_target(tmp_path, target):
 
 
 # Last, as Blender 4.2 may crash when it exports glTF after an Edit Mode (docs/reliability.md).
-
-
-def test_stl_names_what_is_not_closed(tmp_path):
-    obj = add_ball()
-    mesh = obj.data
-    with edit_mode(obj) as edited:
-        edited.faces.ensure_lookup_table()
-        edited.faces[40].normal_flip()
-        edited.faces.remove(edited.faces[0])
-    printed = reports_of(lambda: send("STL", tmp_path / "ball.stl"))
-    assert '"Ball" is not closed: 4 edges at holes, 4 edges between faces' in printed
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.mesh.edge_split()  # as in a .glb file
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert len(mesh.vertices) == 4 * len(mesh.polygons)
-    printed = reports_of(lambda: send("STL", tmp_path / "ball.stl"))
-    assert '"Ball" is not closed: 4 edges at holes, 4 edges between faces' in printed
 
 
 def test_refusals(tmp_path):

@@ -25,8 +25,7 @@ OPTIONS = {name: worth_trying.values(each) for name, each in method.SETTINGS.ite
     "preset": ["Soft", "Cubic", "As_in_the_Paper"],
     "device": ["AUTO", "NUMPY"],
     "max_iterations": [1, 5, 40],
-    "capture_strength": [0.0, 0.0, 0.4],
-    **dict.fromkeys(("frame", "form_object", "capture_object")),  # any object
+    **dict.fromkeys(("frame", "form_object")),  # any object
 }
 """values of the settings"""
 OF_REGION = ("form", "cubeness", "form_sides", "form_weights", "orientation", "form_object")
@@ -160,7 +159,7 @@ def change_setting(rng):
     value = rng.choice(OPTIONS.get(name) or list(bpy.data.objects))
     if not hasattr(target, name):  # Live has not all
         return None
-    if name in ("frame", "form_object", "capture_object") and is_live():
+    if name in ("frame", "form_object") and is_live():
         value = value.name
     setattr(target, name, value)
     if not is_live():
@@ -185,7 +184,7 @@ def change_preference(rng):
         return None
     if rng.random() < 0.5:
         manager = bpy.context.window_manager
-        name = rng.choice(("cubic_craft_overlay", "cubic_craft_angles"))
+        name = "cubic_craft_overlay"
         setattr(manager, name, not getattr(manager, name))
         return name
     preferences = bpy.context.preferences.addons[scene.EXTENSION].preferences

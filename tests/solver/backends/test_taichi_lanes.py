@@ -24,7 +24,7 @@ def lanes_for_all(monkeypatch):
     monkeypatch.setattr("solver.backends.taichi_local_step.LANES_FROM", 0)
 
 
-def local_steps(V, F, lam, Q, captured=None):
+def local_steps(V, F, lam, Q):
     """Return the local step with lanes, and the same without."""
     from solver.backends.engine import ti
     from solver.backends.face_tables import face_tables
@@ -32,18 +32,17 @@ def local_steps(V, F, lam, Q, captured=None):
     from solver.backends.taichi_local_step import TaichiLocalStep
 
     rest = rest_mesh(V, F, PAPER)
-    both = [TaichiLocalStep(rest, lam, Q, AdmmOptions(), captured=captured) for _ in range(2)]
-    both[1]._kernels = make_kernels(ti.f64, 3, captured is not None, has_lanes=False)
+    both = [TaichiLocalStep(rest, lam, Q, AdmmOptions()) for _ in range(2)]
+    both[1]._kernels = make_kernels(ti.f64, 3, has_lanes=False)
     both[1]._tables = face_tables(CUBE.faces, both[1]._keep, both[1].arrays.keep)
     return rest, both
 
 
 @pytest.mark.thorough(5)
 @needs_taichi
-@pytest.mark.parametrize("has_captured", [False, True], ids=["free", "captured"])
 @pytest.mark.parametrize("is_weighted", [False, True], ids=["one cubeness", "a map"])
 @pytest.mark.parametrize("count", [162, 161, 159])
-def test_lanes_change_nothing(has_captured, is_weighted, count):
+def test_lanes_change_nothing(is_weighted, count):
     """Also where some vertices are left out, turned inside out, or at the end of the mesh."""
     V, F = shapes.blob(2)
     F = F[F.max(axis=1) < count]  # so that the last lanes have no vertex
@@ -51,8 +50,7 @@ def test_lanes_change_nothing(has_captured, is_weighted, count):
     random = np.random.default_rng(1)
     lam = np.where(random.random(count) < 0.3, 0.0, 0.4) if is_weighted else np.full(count, 0.4)
     Q = np.stack([shapes.rotation(*angles) for angles in random.uniform(-90, 90, (count, 3))])
-    captured = np.column_stack([V, np.full(count, 0.2)]) if has_captured else None
-    rest, steps = local_steps(V, F, lam, Q, captured)
+    rest, steps = local_steps(V, F, lam, Q)
     U, uncertified = rest.V.copy(), 0
     for _ in range(4):
         U += 0.05 * random.standard_normal(U.shape)

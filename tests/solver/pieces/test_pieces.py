@@ -15,7 +15,6 @@ from solver import (
     PAPER,
     CubicCraftError,
     HandlePose,
-    NormalCapture,
     ProxyOptions,
     SolverOptions,
     Style,
@@ -263,17 +262,12 @@ def test_a_handle_that_is_not_there_is_refused(number, named):
     assert piece_of(V, F, handles=[HandlePose()], handle_of=handle_of).is_held.sum() == len(V) - 1
 
 
-CAPTURE = NormalCapture(AXES, AXES)
-
-
 @pytest.mark.parametrize(
     "style",
     [
         Style(np.full(42, 0.4)),
         Style(0.4, np.tile(np.eye(3), (42, 1, 1))),
         Style(0.4, form=[octahedron(), octahedron()], form_of=np.zeros(42, int)),
-        Style(0.4, capture=[CAPTURE, CAPTURE], capture_of=np.zeros(42, int)),
-        Style(0.4, capture=CAPTURE, capture_strength=np.ones(42)),
     ],
 )
 def test_a_style_that_differs_from_vertex_to_vertex_is_refused(style):
@@ -283,20 +277,6 @@ def test_a_style_that_differs_from_vertex_to_vertex_is_refused(style):
         piece_of(V, F, style)
     with pytest.raises(CubicCraftError, match="regions must be the same for all vertices"):
         piece_of(V, F, regions=[style], region_shares=shares)
-
-
-def test_a_capture_is_that_of_all_regions():
-    V, F = blob(1)
-    shares = np.tile([0.5, 0.5], (len(V), 1))
-    captured = Style(0.4, capture=CAPTURE, capture_strength=2.0)
-    with pytest.raises(CubicCraftError, match="regions cannot have captures"):
-        piece_of(V, F, regions=[captured], region_shares=shares)
-    piece = piece_of(
-        V, F, captured, regions=[Style(0.4)], region_shares=shares, map_weights=shares[:, 0]
-    )
-    style = join_pieces([piece], PAPER).style
-    assert style.captures == [CAPTURE]
-    np.testing.assert_array_equal(style.capture_strength, np.ones(len(V)))
 
 
 def test_a_placement_by_a_matrix_leads_there_and_back():
