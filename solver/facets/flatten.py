@@ -15,7 +15,7 @@ from ..aliases import BoolArray, Faces, FloatArray, IntArray
 from ..errors import CubicCraftError
 from ..inputs import real_numbers
 from ..mesh.components import components
-from ..mesh.edge_vectors import double_area_vectors, edge_vectors
+from ..mesh.edge_vectors import area_vectors
 from ..mesh.edges import Edges
 from ..mesh.face_graph import FaceGraph
 from ..mesh.mesh_checks import check_mesh
@@ -223,17 +223,9 @@ def _unit_directions(directions):
     return directions / np.where(is_unit, 1.0, lengths)[:, None]
 
 
-def _vectors(V, F):
-    """Return the normals (m,3) of the triangles, of the length of twice their areas."""
-    vectors = np.empty((len(F), 3))
-    for block, edges in edge_vectors(V, F):
-        vectors[block] = double_area_vectors(edges).T
-    return vectors
-
-
 def _facing(V, F, directions, least_cosine, counts):
     """Return areas and centroids of triangles, the direction that each faces, or -1, and sin^2."""
-    vectors = _vectors(V, F)
+    vectors = area_vectors(V, F)
     lengths = np.linalg.norm(vectors, axis=1)
     cosines = vectors @ directions.T
     nearest = nearest_labels(FaceGraph(V, F), directions, counts)
@@ -249,7 +241,7 @@ def _facing(V, F, directions, least_cosine, counts):
 def _without_turning_over(V, F, patches, tolerance, walls):
     """Move the vertices into their planes, those of triangles that turn over into fewer or none."""
     most = np.full(len(V), MOST)
-    before = _vectors(V, F)
+    before = area_vectors(V, F)
     least = _LEAST_AREA * np.einsum("mj,mj->m", before, before)
     while True:
         moved, is_in = nearest_on_planes(
@@ -262,7 +254,7 @@ def _without_turning_over(V, F, patches, tolerance, walls):
             tolerance,
             walls,
         )
-        kept = np.einsum("mj,mj->m", before, _vectors(moved, F))
+        kept = np.einsum("mj,mj->m", before, area_vectors(moved, F))
         is_turned = (kept < least) & (moved != V).any(axis=1)[F].any(axis=1)
         if not is_turned.any():
             return moved, is_in

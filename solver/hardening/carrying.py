@@ -15,7 +15,7 @@ STILL = 0.005, 0.055
 _MASS = 1e-3  # of the links of a part: the lighter of two goes along, and what is fixed stays
 _FIXED = 1e3  # times the area of all
 _PLACES = 256  # at most, of what would cross, that others are taken along by
-_BLOCK = 2048
+_BLOCK = 256  # what is computed of so many at once stays in the cache of a core
 _POINT = 1e-6
 
 
@@ -52,8 +52,9 @@ def away_from(U, vertices, times=1.0):
     """Return 0 for positions (n,3) near some vertices (k,), 1 away from them, see `STILL`."""
     if not np.size(vertices):
         return np.ones(len(U))
-    far, _ = KDTree(U[np.unique(vertices)]).query(U)
-    return smoothstep(far, *np.multiply(STILL, times))
+    start, end = np.multiply(STILL, times)
+    far, _ = KDTree(U[np.unique(vertices)]).query(U, distance_upper_bound=end)
+    return smoothstep(far, start, end)
 
 
 def together(U, pairs, moves, part, is_asked):
@@ -73,12 +74,16 @@ def together(U, pairs, moves, part, is_asked):
     result = np.zeros_like(U)
     step = -(-len(at) // _PLACES)
     places, of_places = U[at[::step]], means[group[::step]]
+    sums, sums_of_places = ((x * x).sum(axis=1) for x in (U, places))
     asked = np.flatnonzero(is_asked)
     for begin in range(0, len(asked), _BLOCK):
         rows = asked[begin : begin + _BLOCK]
-        away = U[rows, None] - places
-        squares = np.maximum(np.einsum("nkj,nkj->nk", away, away), _POINT * _POINT)
-        weights = (squares.min(axis=1, keepdims=True) / squares) ** 2
+        squares = U[rows] @ (-2.0 * places.T)
+        squares += sums[rows, None]
+        squares += sums_of_places
+        np.maximum(squares, _POINT * _POINT, out=squares)
+        weights = squares.min(axis=1, keepdims=True) / squares
+        weights *= weights
         result[rows] = weights @ of_places / weights.sum(axis=1, keepdims=True)
     result[at] = means[group]
     return result

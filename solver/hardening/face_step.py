@@ -28,9 +28,11 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
+from ..algebra import columns, dot
 from ..aliases import BoolArray, FloatArray
 from ..global_step.motion import Motion
 from ..limbs.turns import smallest_turns
+from ..mesh.edge_vectors import area_vectors
 from ..rotation_fit import fit_rotations, svd_rotations
 from ..surface.details import at_vertices
 from .base import Base
@@ -228,11 +230,10 @@ class FaceStep:
         What is cut off a rounded side is not all put on at its edges, which resist.
         """
         rest = self._rest
-        corners = self._target.soft[rest.F], U[rest.F]
-        soft, hard = (np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]) for x in corners)
-        moved = (corners[1] - corners[0]).mean(axis=1)
-        lost = self._sums_over_faces(-0.25 * ((soft + hard) * moved).sum(axis=1))
-        area = self._sums_over_faces(0.5 * np.linalg.norm(soft, axis=1))
+        soft, hard = (columns(area_vectors(x, rest.F)) for x in (self._target.soft, U))
+        moved = sum((U - self._target.soft).T.take(corner, axis=1) for corner in rest.F.T) / 3.0
+        lost = self._sums_over_faces(-0.25 * dot(*(soft + hard), *moved))
+        area = self._sums_over_faces(0.5 * np.sqrt(dot(*soft, *soft)))
         outward = GAIN * lost / np.where(area > 0.0, area, 1.0)
         self.hold_outward(outward[rest.topology.component])
 

@@ -34,7 +34,7 @@ class HardStylization(Stylization):
     hardening : Hardening
     """
 
-    _made_anew = (*Stylization._made_anew, "_rotations", "_rotations_of")
+    _made_anew = (*Stylization._made_anew, "_rotations", "_rotations_of", "_planes")
 
     def __init__(self, soft: Stylization, before: FloatArray | None = None):
         self.__dict__.update(soft.__dict__)
@@ -60,13 +60,24 @@ class HardStylization(Stylization):
         if self.rest.is_cage:
             return
         fixed, hard = self.setup.pinned, self._motion.positions
-        self.hardening = self.hardening.flattened(hard, fixed, may_cross=may_cross, apart=apart)
+        self.hardening = self.hardening.flattened(
+            hard, self._to_planes(), fixed, may_cross=may_cross, apart=apart
+        )
         U = self.hardening.positions(hard)
         share = self.hardening.crispness[:, None]
         straight = U + self.hardening.straightening(U, fixed, may_cross=may_cross)
         self.impose(straight)
         moves = self.hardening.moves + (straight - U) / np.maximum(share, _SEEN)
         self.hardening = replace(self.hardening, moves=moves)
+
+    def _to_planes(self):
+        """Return `to_planes` of the hardening, found once for all crispnesses of a shape."""
+        of, hard = (self.hardening.target, self.hardening.rotations), self._motion.positions
+        known, U, found = self.__dict__.get("_planes", ((None, None), None, None))
+        if known[0] is not of[0] or known[1] is not of[1] or not np.array_equal(U, hard):
+            found = self.hardening.to_planes(hard)
+            self._planes = of, hard.copy(), found
+        return found
 
     def with_crispness(self, crispness: ArrayLike) -> HardStylization | None:
         """Return one at the same point with another crispness, as of a `Style`.

@@ -122,19 +122,23 @@ class Hardening:
         parts = {name: left * getattr(self, name) for name in ("asked", "firm", "flat")}
         return replace(self, soft=soft, **parts)
 
-    def flattened(self, U, fixed, *, may_cross=False, apart=()):
-        """Return the same with the moves of the hard shape U (n,3) to the planes of its sides.
+    def to_planes(self, U):
+        """Return the `flattening` of the hard shape U (n,3), however crisp it is."""
+        base, rest = self.target.base, self.target.base.rest
+        of_sides = self.side, self.target.directions, self.target.heights
+        of_shape = base.is_tilted, base.thickness
+        rims = self.rim, open_rims(rest.V, base.graph, self.rotations)
+        return flattening(U, rest.F, base.graph, *of_sides, *of_shape, *rims)
+
+    def flattened(self, U, planes, fixed, *, may_cross=False, apart=()):
+        """Return the same with the moves of the hard shape U (n,3) to its `planes`, of `to_planes`.
 
         Linked parts go along. Vertices `fixed` stay, with all around them, and what would come to
         cross stays or goes as one, with all around it. Where things `may_cross`, that is not looked
         for, nor is it for two parts that cross before, but for those to be `apart`, (k,2) int.
         """
-        base, rest = self.target.base, self.target.base.rest
-        of_sides = self.side, self.target.directions, self.target.heights
-        of_shape = base.is_tilted, base.thickness
-        rims = self.rim, open_rims(rest.V, base.graph, self.rotations)
-        moves, flat = flattening(U, rest.F, base.graph, *of_sides, *of_shape, *rims)
-        moves *= smoothstep(self.asked, *FLAT)[:, None]
+        rest, (moves, flat) = self.target.base.rest, planes
+        moves = moves * smoothstep(self.asked, *FLAT)[:, None]
         nothing = np.zeros_like(moves)
         round_ = replace(self, flat=np.zeros_like(flat), moves=nothing, along=nothing)
         before = round_.positions(U)

@@ -34,3 +34,11 @@ def double_area_vectors(edges):
     """Return the normals (3,b) of a block of triangles, as long as twice their area."""
     (ax, ay, az), (bx, by, bz) = edges[1], edges[2]
     return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
+
+
+def area_vectors(V, F):
+    """Return the normals (m,3) of triangles (m,3) of positions (n,3), as long as twice the area."""
+    vectors = np.empty((len(F), 3))
+    for block, edges in edge_vectors(V, F):
+        vectors[block] = double_area_vectors(edges).T
+    return vectors
