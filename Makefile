@@ -192,7 +192,7 @@ $(VENV)-library-$(1)/bin/python $(PYTEST) $(5)
 endef
 NOTEBOOK := tests/library/test_library_notebook.py
 
-test-wheel: wheel ## The installed wheel with the oldest and the newest NumPy, and the notebook
+test-wheel: wheel ## The installed wheel with the oldest and the newest NumPy, its command and the notebook
 	$(call test_library,oldest,$(PYTHON311),oldest,,--few 2 --ignore $(NOTEBOOK) tests/library)
 	$(call test_library,newest,$(PYTHON),newest,[fast],tests/library)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Build hook of the wheel: `solver/` under the name `cubic_craft`.
+"""Build hook of the wheel: `solver/` under the name `cubic_craft`, with its command line.
 
 The extension and the wheel share the same files. A package named ``solver`` would be too general
 for an environment with others, so their copies in the wheel say ``from cubic_craft import`` where
@@ -15,6 +15,7 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 PACKAGE = "cubic_craft"
+_ROOMS = (("solver", "**/*.py"), ("library", "__main__.py"), ("library", "command_line/**/*.py"))
 _IMPORT = re.compile(r"^(\s*(?:>>> |\.\.\. )?from )solver\b", re.MULTILINE)
 
 
@@ -25,10 +26,11 @@ def renamed(text: str) -> str:
 
 def stage(root: Path, folder: Path) -> None:
     """Write the package into a folder, from the files of a checkout."""
-    for source in sorted((root / "solver").rglob("*.py")):
-        target = folder / source.relative_to(root / "solver")
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(renamed(source.read_text(encoding="utf-8")), encoding="utf-8")
+    for room, files in _ROOMS:
+        for source in sorted((root / room).glob(files)):
+            target = folder / source.relative_to(root / room)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(renamed(source.read_text(encoding="utf-8")), encoding="utf-8")
     shutil.copy(root / "library" / "py.typed", folder)
 
 

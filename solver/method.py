@@ -2,7 +2,7 @@
 """Every setting, once: its name, default, limits, words and who has it.
 
 From here come Blender's properties and those of the operators, what a preset holds, the options of
-the command line, the library's defaults, and what the tables of the documentation are checked
+both command lines, the library's defaults, and what the tables of the documentation are checked
 against. Nothing here needs SciPy, without which the panel is shown, too.
 
 Names, and the numbers of choices, are in files: only add to them.

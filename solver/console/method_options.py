@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of the command line for the settings of the method, made from what is declared.
+"""The options of both command lines for the settings of the method, made from what is declared.
 
 A choice is given in lower case, a switch as on or off, and angles in degrees.
 """

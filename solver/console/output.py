@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the command line writes: checked before, and never left half-written.
+"""Where both command lines write: checked before, and never left half-written.
 
 A file has a temporary name until it is whole.
 """

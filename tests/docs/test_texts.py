@@ -11,7 +11,9 @@ import pytest
 from documents import GUIDE, NAVIGATION, PAGES, ROOT, anchors, links
 
 import solver
-from solver.method import SETTINGS
+from library.command_line.arguments import _parser, parse
+from solver.method import SETTINGS, Advanced, Kept
+from solver.setting import declared
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -108,6 +110,24 @@ def test_scripts_are_told_all_settings_of_the_method_in_the_order_of_the_panel()
         assert default == told(setting.default), name
         if setting.limits:
             assert limits == " to ".join(map(told, setting.limits)), name
+
+
+def test_the_command_of_the_library_is_told_with_its_defaults():
+    found = {cells[0]: cells[1:] for cells in rows("library.md", "| option | default | |")}
+    by_default = vars(parse(["a.obj", "b.obj"]))
+    kept = {f"--{name.replace('_', '-')}" for name in declared(Kept, Advanced)}
+    options = [a for a in _parser()._actions if a.option_strings and a.nargs != 0]
+    for action in options:
+        (option,), choices, names = action.option_strings, action.choices or (), action.metavar
+        words = names if isinstance(names, tuple) else [names or r"\|".join(choices)]
+        is_named = len(choices) > 3 or not choices
+        title = f"`{option} {'NAME' if choices and is_named else ' '.join(words)}`"
+        default, what = found.pop(title)
+        value = by_default[action.dest]
+        assert default == ("" if value is None else told(value).replace(",", "")), option
+        if option in kept:
+            assert what == action.help.partition(" (default")[0], option
+    assert found.keys() == {"`--paper`", "`--quiet`"}
 
 
 BRITISH = re.compile(

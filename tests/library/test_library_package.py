@@ -17,22 +17,26 @@ from cubic_craft import optional_packages
 
 ROOT = Path(__file__).parents[2]
 INSTALLED = Path(cubic_craft.__file__).parent
-SOURCES = [*(ROOT / "solver").rglob("*.py")]
+SOURCES = [
+    *((ROOT / "solver", path) for path in (ROOT / "solver").rglob("*.py")),
+    *((ROOT / "library", path) for path in (ROOT / "library" / "command_line").rglob("*.py")),
+    (ROOT / "library", ROOT / "library" / "__main__.py"),
+]
 BACKENDS = "cubic_craft.backends"
 
 
-def copy_of(path):
-    return INSTALLED / path.relative_to(ROOT / "solver")
+def copy_of(room, path):
+    return INSTALLED / path.relative_to(room)
 
 
 def test_it_is_not_the_source_tree():
     assert ROOT not in INSTALLED.parents or INSTALLED.is_relative_to(sys.prefix)
 
 
-@pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.name)
-def test_a_file_differs_only_where_it_imports_the_solver(path):
+@pytest.mark.parametrize(("room", "path"), SOURCES, ids=lambda value: value.name)
+def test_a_file_differs_only_where_it_imports_the_solver(room, path):
     source = path.read_text(encoding="utf-8").splitlines()
-    copy = copy_of(path).read_text(encoding="utf-8").splitlines()
+    copy = copy_of(room, path).read_text(encoding="utf-8").splitlines()
     assert len(copy) == len(source)
     for line, original in zip(copy, source, strict=True):
         if line != original:
@@ -42,7 +46,7 @@ def test_a_file_differs_only_where_it_imports_the_solver(path):
 
 def test_there_is_nothing_else():
     found = {path for path in INSTALLED.rglob("*") if path.is_file() and path.suffix != ".pyc"}
-    assert found == {*map(copy_of, SOURCES)} | {INSTALLED / "py.typed"}
+    assert found == {copy_of(*each) for each in SOURCES} | {INSTALLED / "py.typed"}
     top_level = {path.parts[0] for path in files("cubic-craft") if path.parts[0] != ".."}
     assert top_level == {"cubic_craft", f"cubic_craft-{version('cubic-craft')}.dist-info"}
 
@@ -66,6 +70,12 @@ def test_it_shows_its_names_and_its_version():
     assert {*cubic_craft.__all__, "__version__"} <= set(dir(cubic_craft))
     listed = pydoc.render_doc(cubic_craft, renderer=pydoc.plaintext)
     assert [name for name in cubic_craft.__all__ if name not in listed] == []
+
+
+def test_it_can_be_run_as_a_module():
+    words = [sys.executable, "-m", "cubic_craft", "--version"]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert done.stdout == f"cubic-craft {cubic_craft.__version__}\n"
 
 
 def test_it_says_what_it_needs_and_its_licence():
@@ -104,6 +114,18 @@ def test_importing_it_is_quick_and_loads_neither_blender_nor_what_is_optional():
     script = "import sys, cubic_craft; print(*sys.modules)"
     text = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout
     assert {"bpy", "taichi", "quadrants", "scipy", "trimesh", "solver"}.isdisjoint(text.split())
+
+
+def test_the_page_lists_the_options_of_the_command():
+    command = Path(sys.executable).with_name("cubic-craft")
+    text = subprocess.run([command, "--help"], capture_output=True, text=True).stdout
+    section = (ROOT / "docs" / "library.md").read_text("utf-8").split("\n## The command\n")[1]
+    rows = [line for line in section.splitlines() if line.startswith("| `--")]
+    listed = set(re.findall(r"--[a-z-]+", " ".join(row.split("|")[1] for row in rows)))
+    assert listed == set(re.findall(r"^  (--[a-z-]+)", text, re.MULTILINE)) - {"--version"}
+    forms = re.search(r"--form \{([a-z,]+)\}", text)[1].split(",")
+    row = next(row for row in rows if row.startswith("| `--form NAME`"))
+    assert [f"`{name}`" in row for name in forms] == [True] * len(forms)
 
 
 @pytest.mark.parametrize(("page", "title"), examples("cubic_craft"), ids=str)

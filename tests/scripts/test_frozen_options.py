@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of the command line stay as they are: names, values, limits and what --help says.
+"""The options of both command lines stay as they are: names, values, limits and what --help says.
 
 `frozen_options.json` has them as they were, and how a command line is read.
 """
@@ -8,20 +8,30 @@ import argparse
 import json
 from pathlib import Path
 
-from scripts.cubic_craft.cubic_craft_addon.command_line.options import arguments
+from scripts.cubic_craft.cubic_craft_addon.command_line.options import arguments as of_blender
 
+from library.command_line import arguments as of_library
 from tests import frozen
 
 FROZEN = Path(__file__).with_name("frozen_options.json")
-FILES = "--no-render --report r.json"
+COMMANDS = {
+    "blender": (of_blender._parser("command"), of_blender.parse),
+    "library": (of_library._parser(), of_library.parse),
+}
+FILES = {"blender": "--no-render --report r.json", "library": "a.obj b.obj"}
 OTHERS = (
     "--crispness 0.2 --solidity 0.4 --keep-pose off --detail 0.3 --detail-strength 2 "
     "--keep-apart off --together off --refine off --rotation free"
 )
-GIVEN = (
-    "--paper",
-    "--paper --keep-pose on --detail 0.1 --keep-apart on --together parts --refine auto",
-    OTHERS,
+GIVEN = {
+    "library": (
+        "--paper",
+        "--paper --keep-pose on --detail 0.1 --keep-apart on --together parts --refine auto",
+        OTHERS,
+    )
+}
+GIVEN["blender"] = (
+    *GIVEN["library"],
     "--paper --symmetry x --hold-rest on",
     f"{OTHERS} --symmetry off --hold-rest off --floor on --space object --map A --detail-map B",
 )
@@ -49,16 +59,17 @@ def refusal(action, text):
 
 
 def declared():
-    for action in arguments._parser("command")._actions:
-        if "--version" not in action.option_strings:
-            yield f"blender {[*action.option_strings, action.dest][0]}", about(action)
-    files = FILES.split()
-    nothing = vars(arguments.parse(files))
-    yield "blender reads nothing", nothing
-    for given in GIVEN:
-        read = vars(arguments.parse([*files, *given.split()]))
-        yield f"blender reads {given}", {n: x for n, x in read.items() if x != nothing[n]}
+    for command, (parser, parse) in COMMANDS.items():
+        for action in parser._actions:
+            if "--version" not in action.option_strings:
+                yield f"{command} {[*action.option_strings, action.dest][0]}", about(action)
+        files = FILES[command].split()
+        nothing = vars(parse(files))
+        yield f"{command} reads nothing", nothing
+        for given in GIVEN[command]:
+            read = vars(parse([*files, *given.split()]))
+            yield f"{command} reads {given}", {n: x for n, x in read.items() if x != nothing[n]}
 
 
-def test_options_are_as_they_were():
+def test_options_of_both_command_lines_are_as_they_were():
     frozen.check(json.loads(json.dumps(dict(declared()), default=str)), FROZEN)
