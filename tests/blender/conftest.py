@@ -2,6 +2,9 @@
 """The tests in bpy run against the extension as a user has it: built and installed from the zip."""
 
 import importlib
+import itertools
+from functools import partial
+from types import SimpleNamespace
 
 import pytest
 from installed import archive, empty_file, extension, pytest_sessionfinish, pytest_unconfigure
@@ -66,8 +69,11 @@ def live(extension):
 def one_phase(live, monkeypatch):
     """Let a tick end after one phase of the solver: else a fast machine does all in the first.
 
-    Each one looks for changes: else a fast machine does many before it sees that of a setting.
+    Each one looks for changes: else a fast machine does many before it sees that of a setting. What
+    glides does so by the number of shapes that are shown: else a slow one shows others.
     """
+    clock = SimpleNamespace(perf_counter=partial(next, itertools.count(step=1.0 / 30.0)))
+    monkeypatch.setattr(f"{live.__name__}.live_mesh.time", clock)
     monkeypatch.setattr(f"{live.__name__}.session._CHECK_SHARE", float("inf"))
     for name in ("SLICE", "LONGEST"):
         monkeypatch.setattr(f"{live.__name__}.slices.{name}", 0.0)
