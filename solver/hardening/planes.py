@@ -71,11 +71,11 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim
     has_one &= is_whole
     facing[~has_one] = 0.0  # they only follow their edges
     centers = U[F].mean(axis=1) - heights[F].mean(axis=1)[:, None] * facing[region]
-    tilted = np.bincount(region, graph.areas * is_tilted, count) / np.maximum(area, _LEAST)
+    tilted, thick, is_rim = (
+        np.bincount(region, graph.areas * values, count) / np.maximum(area, _LEAST)
+        for values in (is_tilted, thickness, rim[F].min(axis=1))
+    )
     normals, offsets, distance = _planes(centers, graph.areas, region, facing)
-    thick = np.bincount(region, graph.areas * thickness, count) / np.maximum(area, _LEAST)
-    is_rim = np.bincount(region, graph.areas * rim[F].min(axis=1), count)
-    is_rim /= np.maximum(area, _LEAST)
     size = np.sqrt(np.maximum(area, _LEAST))
     size += is_rim * (diagonals(U, F, region, count) - size)
     shares = np.where(has_one, _nearness(distance, size, tilted, thick, is_rim), 0.0)
