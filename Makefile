@@ -79,7 +79,7 @@ test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on the versions of Blen
 		flatten_facets flatten_ngons floor form_from_selection form_settings handle_own_pose handle_reach \
 		handles keyed_settings leaks live_crisp live_inputs live_poses live_transforms \
 		orientation other_blenders posed_anew refusals regions rigged_limbs scenes \
-		select_crossing symmetry up_to_date) \
+		symmetry up_to_date) \
 		--ignore tests/blender/send tests/blender \
 		$(patsubst %,tests/scripts/test_headless_%.py,bake picture round_trip seen)
 	CUBIC_CRAFT_ZIP=$(ZIP) $(VENV)-oldest/bin/python $(PYTEST) --few 2 tests/blender/send

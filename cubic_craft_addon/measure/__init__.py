@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is found on a surface: angles to the form, planar facets, faces that cross others."""
+"""What is found on a surface: planar facets."""

@@ -29,11 +29,9 @@ from .access.sharp_edges import (
 )
 from .access.triangulation import (
     faces_of_triangles,
-    not_hidden,
     read_evaluated,
     read_evaluated_points,
     read_selected_faces,
-    select_faces,
     triangles,
 )
 from .access.vertex_groups import group_weights, vertex_group, weights_of_groups

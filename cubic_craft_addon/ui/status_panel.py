@@ -58,13 +58,9 @@ def _draw_line(context, layout, obj, run, changes):
         layout.operator("object.mode_set", text=text, icon="OBJECT_DATAMODE").mode = "OBJECT"
         return
     texts, icon = _words(run, changes, is_edited=edited.is_edited(mesh_bridge.mesh_of(obj)))
-    has_crossings = run is not None and bool(run.crossings)
-    room -= _ICON * has_crossings
     layout.alert = icon == "ERROR"
     layout.active = run is not None
     layout.label(text=longest_that_fits(texts, room), icon=icon)
-    if has_crossings:
-        layout.operator("cubic_craft.select_crossing", text="", icon="FACESEL")
 
 
 def _words(run, changes, *, is_edited):
@@ -79,10 +75,10 @@ def _words(run, changes, *, is_edited):
         iterations = f"{run.iterations} iterations"
         return (f"Not converged after {iterations}", f"Not converged: {iterations}"), "ERROR"
     crossing, is_failed = crossing_words(run.crossings, run.pressed)
-    if is_failed:
-        return (crossing, crossing.replace(" still", "")), "ERROR"
     if crossing:
-        return (f"{crossing}, leave more room", crossing, crossing.split(":")[0]), "INFO"
+        short = crossing.replace(" still", "").split(":")[0]
+        texts = f"{crossing}, leave more room", crossing, short
+        return texts, "ERROR" if is_failed else "INFO"
     seconds = f"{run.seconds:.2f} s"
     return (
         f"Converged in {seconds}, {_vertices(run)}",

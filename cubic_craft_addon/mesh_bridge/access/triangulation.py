@@ -64,20 +64,6 @@ def read_selected_faces(mesh: bpy.types.Mesh) -> np.ndarray:
     return np.array(found, dtype=np.float64).reshape(-1, 3)
 
 
-def not_hidden(mesh: bpy.types.Mesh, faces: np.ndarray) -> np.ndarray:
-    """Return those of some faces, by their numbers, that can be seen in Edit Mode."""
-    return faces[~read_values(mesh.polygons, "hide", bool)[faces]]
-
-
-def select_faces(mesh: bpy.types.Mesh, faces: np.ndarray) -> None:
-    """Select faces of a mesh in Edit Mode, by their numbers, besides what is selected."""
-    edited = bmesh.from_edit_mesh(mesh)
-    edited.faces.ensure_lookup_table()
-    for number in faces.tolist():
-        edited.faces[number].select_set(True)
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-
-
 def read_evaluated_points(obj: bpy.types.Object) -> tuple[np.ndarray, int]:
     """Read only the positions.
 

@@ -2,6 +2,7 @@
 """What is said of a result comes from its mesh, and tells whether the settings have changed."""
 
 import importlib
+from dataclasses import replace
 
 import bpy
 import pytest
@@ -254,3 +255,22 @@ def test_a_run_that_is_not_as_we_write_it_is_not_ours(last_run):
     settings = '"orientation": "upright", "cubeness": {}, "handles": [[1]], "frame": [], "x": '
     obj.data["cubic_craft_note"] = note.replace('"orientation": ', settings)
     assert last_run(obj) is not None
+
+
+@pytest.mark.parametrize("count", [None, 0, 12])
+def test_the_count_of_crossing_faces_is_kept_on_the_mesh(
+    part, last_run, monkeypatch, reopen, count
+):
+    tasks = part("run.tasks")
+    run_of = tasks.run_of
+
+    def with_count(solution, settings):
+        result = replace(solution.result, crossings=count, pressed=count and 0)
+        return run_of(replace(solution, result=result), settings)
+
+    monkeypatch.setattr(tasks, "run_of", with_count)
+    obj = add_monkey()
+    assert cubify() == {"FINISHED"}
+    assert last_run(obj).crossings == count
+    assert ("12 faces still cross" in obj.cubic_craft.status) == (count == 12)
+    assert last_run(reopen("Suzanne")).crossings == count
