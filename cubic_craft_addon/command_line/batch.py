@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 
 from ...solver.console import sources
 from ...solver.console.many import KEPT, in_words, one_by_one
-from ...solver.console.output import InputError
+from ...solver.console.output import InputError, check_outputs
 from .options.arguments import options_for
 from .options.formats import READABLE
-from .process.output_files import check_writable, written
+from .process.output_files import written
 from .process.progress import ProgressBar
 from .process.quiet import one_line
 
@@ -80,12 +80,13 @@ def jobs_of(options: Namespace) -> list[Job]:
     for name, path in _named(found).items():
         own = options_for(options, name, path)
         jobs.append(Job(path, own, written(own)))
-    _check_places(options, jobs)
+    _check_folder(options)
+    inputs = [*(job.path for job in jobs), options.handles_file, options.form_object]
     for folder in {path.parent for job in jobs for path in job.outputs} | {options.output_folder}:
         sources.make_folder(f"--output-folder {options.output_folder}", folder)
     for job in jobs:
         if job.outputs:
-            check_writable("--output-folder", job.outputs)
+            check_outputs("--output-folder", job.outputs, filter(None, inputs))
     if kinds:
         ProgressBar().say(f"left out, of kinds that are not read: {one_line(in_words(kinds))}")
     return jobs
@@ -118,13 +119,8 @@ def _folded(name: PurePath) -> str:
     return unicodedata.normalize("NFC", name.as_posix()).casefold()
 
 
-def _check_places(options: Namespace, jobs: list[Job]) -> None:
-    """Refuse results in the place of inputs, or that are taken for inputs the next time."""
-    given = (options.handles_file, options.form_object)
-    inputs = {path.resolve() for path in (*(job.path for job in jobs), *given) if path}
-    for path in (path for job in jobs for path in job.outputs):
-        if path.resolve() in inputs:
-            raise InputError(f"{path}: is an input; choose another --output-folder")
+def _check_folder(options: Namespace) -> None:
+    """Refuse results that are taken for inputs the next time."""
     folders = {path.resolve() for path in options.inputs if path.is_dir()}
     if options.save_mesh and options.output_folder.resolve() in folders:
         raise InputError(

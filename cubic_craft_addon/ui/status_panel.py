@@ -8,7 +8,7 @@ mode in which nothing can be done.
 
 import bpy
 
-from ...solver.console.crossing_words import crossing_words
+from ...solver.console.run_words import crossing_words
 from .. import job, live, mesh_bridge
 from ..environment.modes import is_mode_usable
 from ..mesh_bridge import LastRun

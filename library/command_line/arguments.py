@@ -46,9 +46,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     *options.inputs, options.output = options.paths
     if not options.inputs:
         raise InputError("the following arguments are required: OUTPUT")
-    for name, values in DEFAULTS.items():
-        if getattr(options, name) is None:
-            setattr(options, name, values[options.paper])
+    method_options.fill_in(options, DEFAULTS)
     return options
 
 
@@ -58,8 +56,6 @@ def _parser() -> argparse.ArgumentParser:
         usage="cubic-craft [options] INPUT [INPUT ...] OUTPUT",
         description="Turn a mesh into a cubic sculpture.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
 
     def add(name: str, **how: Any) -> None:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The run of the command, from its options to its exit code."""
 
-import stat
 import sys
 import time
 from argparse import Namespace
@@ -9,16 +8,15 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
-from solver.console.crossing_words import end_words
 from solver.console.interruption import end_on_signals
 from solver.console.many import in_words, one_by_one
-from solver.console.output import InputError, check_folder, check_place, refusals_of, replacing
-from solver.console.sources import check_source, find_sources, listing, make_folder
+from solver.console.output import InputError, check_outputs, refusals_of, replacing
+from solver.console.run_words import end_words, numbers_of
+from solver.console.sources import check_source, check_suffix, find_sources, make_folder
 
 from .arguments import FORMATS, parse
 
 PROGRAM = "cubic-craft"
-_WRITABLE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 
 
 def main() -> int:
@@ -61,8 +59,7 @@ def _jobs(options: Namespace) -> tuple[list[tuple[str, str]], Counter[str]]:
     written: set[str] = set()
     for source, target in jobs:
         check_source(Path(source), FORMATS)
-        if Path(target).suffix.lower() not in FORMATS:
-            raise InputError(f"{target}: the name must end in {listing(FORMATS)}")
+        check_suffix(target, Path(target), FORMATS)
         if target in written:
             raise InputError(f"{target}: two inputs have this name; give them one by one")
         written.add(target)
@@ -70,30 +67,12 @@ def _jobs(options: Namespace) -> tuple[list[tuple[str, str]], Counter[str]]:
         if output.is_file():
             raise InputError(f"{output}: is a file; several results need a folder")
         make_folder(str(output), output)
-    for source, target in jobs:
-        _check_output(source, target)
+    for _, target in jobs:
+        check_outputs("", [Path(target)], inputs)
     if options.report:
-        _check_writable(options.report)
-        if options.report.suffix.lower() != ".json":
-            raise InputError(f"--report {options.report}: the name must end in .json")
+        check_outputs("--report", [options.report])
+        check_suffix(f"--report {options.report}", options.report, (".json",))
     return jobs, kinds
-
-
-def _check_writable(path: Path) -> None:
-    check_place(str(path), path)
-    if path.is_symlink():
-        raise InputError(f"{path}: this is a link, which is not replaced; give another name")
-    if path.exists() and not path.stat().st_mode & _WRITABLE:
-        raise InputError(f"{path}: this file is write-protected; give another name")
-    if path.exists() and not path.is_file():
-        raise InputError(f"{path}: is a device or a pipe; give a file")
-    check_folder(str(path), path.parent)
-
-
-def _check_output(source: str, output: str) -> None:
-    _check_writable(Path(output))
-    if Path(source).resolve() == Path(output).resolve():
-        raise InputError(f"{output}: this is the input; give another name")
 
 
 def _run(source: str, output: str, options: Namespace) -> dict[str, Any]:
@@ -120,16 +99,12 @@ def _run(source: str, output: str, options: Namespace) -> dict[str, Any]:
     )
     for line in (summary, *(f"note: {note}" for note in notes)) if not options.quiet else ():
         _say(line)
-    numbers = {name: getattr(result.energy, name) for name in ("total", "arap", "cubic")}
     return {
         "outputs": [output],
         "seconds": seconds,
         "vertices": len(file.points),
         "faces": file.face_count,
-        "iterations": result.iterations,
-        "converged": bool(result.converged),
-        "crossings": result.crossings,
-        "energy": {name: float(value) for name, value in numbers.items()},
+        **numbers_of(result),
         "device": result.device,
         "notes": notes,
     }

@@ -20,7 +20,11 @@ FORMS = tuple(name.lower() for name, *_ in EVERY_FORM if name not in (*OF_OBJECT
 
 
 class OneLineParser(argparse.ArgumentParser):
-    """An ArgumentParser whose errors are one line, like all others."""
+    """An ArgumentParser with errors of one line, like all others, and an epilog of several."""
+
+    def __init__(self, **about: Any) -> None:
+        layout = argparse.RawDescriptionHelpFormatter
+        super().__init__(**about, formatter_class=layout, allow_abbrev=False)
 
     def error(self, message: str) -> NoReturn:
         """Raise InputError."""
@@ -79,6 +83,13 @@ def defaults(*groups: type) -> dict[str, tuple[Any, Any]]:
         for name, option in names.items()
         if settings[name].paper is not None
     }
+
+
+def fill_in(options: argparse.Namespace, values: Mapping[str, tuple[Any, Any]]) -> None:
+    """Set the options that were not given to their `defaults`."""
+    for name, (default, paper) in values.items():
+        if getattr(options, name) is None:
+            setattr(options, name, paper if options.paper else default)
 
 
 def as_in_paper(values: Mapping[str, tuple[Any, Any]]) -> str:

@@ -9,14 +9,16 @@ import os
 import platform
 import re
 import shutil
+import stat
 import sys
 import tempfile
 import threading
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from ..errors import CubicCraftError
 
+_WRITABLE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 _LONGEST_STEM = 100  # bytes of it in the name of a temporary file, which must not be too long
 _begins: list[Path] = []  # of the temporary files of this process, without suffix
 _removing = threading.Lock()
@@ -29,40 +31,37 @@ class InputError(ValueError):
     """
 
 
-def check_place(name: str, path: Path) -> None:
-    """Refuse what is a folder, or lies in none; `name` is what messages call it.
+def check_outputs(option: str, paths: Sequence[Path], inputs: Iterable[Path] = ()) -> None:
+    """Refuse files of one folder that cannot be written, or are inputs, before the work starts.
 
-    Raises InputError.
+    `option`: what has named them. Raises InputError: naming the option, the path and the cure.
     """
-    if path.is_dir():
-        raise InputError(f"{name}: this is a folder; give the name of a file")
-    if not path.parent.is_dir():
-        raise InputError(f"{name}: the folder {path.parent} does not exist; create it")
-
-
-def check_folder(name: str, folder: Path) -> None:
-    """Refuse a folder that cannot be written to; `name` is what messages call the file.
-
-    Raises InputError.
-    """
+    sources = {path.resolve() for path in inputs}
+    for path in paths:
+        if reason := _why_not(path, sources):
+            raise InputError(f"{option} {path}: {reason}".lstrip())
+    folder = paths[0].parent
     try:
         # Trying is the only check that holds on network drives and read-only mounts alike.
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
-        reason = error.strerror or error
-        message = f"{name}: cannot write to {folder} ({reason}); choose another folder"
-        raise InputError(message) from error
+        reason = f"cannot write to {folder} ({error.strerror or error}); choose another folder"
+        raise InputError(f"{option} {paths[0]}: {reason}".lstrip()) from error
 
 
-@contextlib.contextmanager
-def errors_of(path: Path) -> Iterator[None]:
-    """Raise an InputError for an OSError of a block that writes a file."""
-    try:
-        yield
-    except OSError as error:
-        message = f"{path}: cannot be written ({error.strerror or error}); choose another path"
-        raise InputError(message) from error
+def _why_not(path: Path, sources: Collection[Path]) -> str:
+    if path.is_dir():
+        return "this is a folder; give the name of a file"
+    if not path.parent.is_dir():
+        return f"the folder {path.parent} does not exist; create it"
+    if path.is_symlink():
+        return "this is a link, which is not replaced; give another name"
+    if path.exists() and not path.is_file():
+        return "this is a device or a pipe; give a file"
+    if path.exists() and not path.stat().st_mode & _WRITABLE:
+        return "this file is write-protected; give another name"
+    return "this is an input; give another name" if path.resolve() in sources else ""
 
 
 @contextlib.contextmanager
@@ -72,16 +71,6 @@ def refusals_of(what: object) -> Iterator[None]:
         yield
     except CubicCraftError as error:
         raise InputError(f"{what}: {error}") from error
-
-
-def move_into_place(temporary: Path, path: Path) -> None:
-    """Move what has been written to where it belongs.
-
-    Raises InputError: nothing has been written.
-    """
-    if not temporary.is_file() or not temporary.stat().st_size:
-        raise InputError(f"{path}: nothing was written; is the disk full?")
-    temporary.replace(path)
 
 
 @contextlib.contextmanager
@@ -96,16 +85,23 @@ def replacing(path: Path, has_own_name: bool = False) -> Iterator[Path]:
     `has_own_name`: it gets the name of ``path``, in a folder of its own, because the format writes
     its name into the file. Raises InputError: the file cannot be written.
     """
-    remove_left_behind(path)
+    _remove_left_behind(path)
     begin = path.with_name(f"{_prefix(path)}{os.getpid()}")
     temporary = begin.with_name(f"{begin.name}{path.suffix}")
-    with _removed_at_end(begin), errors_of(path):
-        _remove(begin)
-        if has_own_name:
-            begin.mkdir()
-            temporary = begin / path.name
-        yield temporary
-        move_into_place(temporary, path)
+    with _removed_at_end(begin):
+        try:
+            _remove(begin)
+            if has_own_name:
+                begin.mkdir()
+                temporary = begin / path.name
+            yield temporary
+            if not temporary.is_file() or not temporary.stat().st_size:
+                raise InputError(f"{path}: nothing was written; is the disk full?")
+            temporary.replace(path)
+        except OSError as error:
+            reason = error.strerror or error
+            message = f"{path}: cannot be written ({reason}); choose another path"
+            raise InputError(message) from error
 
 
 def remove_temporaries() -> None:
@@ -118,7 +114,7 @@ def remove_temporaries() -> None:
         _remove(begin)
 
 
-def remove_left_behind(path: Path) -> None:
+def _remove_left_behind(path: Path) -> None:
     """Remove temporary files for a path whose process is no longer there."""
     for other, number in _temporaries(path.with_name(_prefix(path))):
         if number.isdecimal() and _has_ended(int(number)):

@@ -30,6 +30,15 @@ def check_source(path: Path, readable: Sequence[str]) -> None:
         raise InputError(f"{path}: is a device or a pipe; give a file")
 
 
+def check_suffix(name: str, path: Path, allowed: Sequence[str]) -> None:
+    """Refuse a path to be written with another suffix; `name` is what messages call it.
+
+    Raises InputError.
+    """
+    if path.suffix.lower() not in allowed:
+        raise InputError(f"{name}: the name must end in {listing(allowed)}")
+
+
 def check_content(path: Path) -> None:
     """Refuse a file that is empty or may not be read.
 

@@ -60,7 +60,7 @@ def test_inputs_that_would_be_lost_are_refused(tmp_path):
     (tmp_path / "other").mkdir()
     save(tmp_path / "a.ply")
     save(tmp_path / "other" / "a.ply")
-    assert "this is the input" in refused("a.ply", ".", folder=tmp_path)
+    assert "this is an input" in refused("a.ply", ".", folder=tmp_path)
     assert "two inputs have this name" in refused("a.ply", "other/a.ply", "out", folder=tmp_path)
     (tmp_path / "file").write_text("")
     (tmp_path / "b.ply").write_text("")

@@ -39,7 +39,7 @@ ARGUMENTS = {
     "unknown format": (["ok.fbx", "a.obj"], "ok.fbx: cannot read '.fbx' files; give .obj"),
     "unknown output": (["ok.obj", "a.fbx"], "a.fbx: the name must end in .obj"),
     "no suffix": (["ok.obj", "a"], "a: the name must end in .obj"),
-    "same file": (["ok.obj", "./ok.obj"], "ok.obj: this is the input"),
+    "same file": (["ok.obj", "./ok.obj"], "ok.obj: this is an input"),
     "no folder": (["ok.obj", "none/a.obj"], "the folder none does not exist; create it"),
     "missing of several": (["ok.obj", "none.obj", "out"], "none.obj: there is no such file"),
     "report": (["ok.obj", "a.obj", "--report", "a.txt"], "--report a.txt: the name must end"),

@@ -11,6 +11,7 @@ from ....solver.console.method_options import (
     add_settings,
     as_in_paper,
     defaults,
+    fill_in,
     number,
 )
 from ....solver.console.sources import listing
@@ -65,9 +66,7 @@ def parse(arguments: list[str], program: str = "headless_render.py") -> argparse
     """
     options = _parser(program).parse_args(arguments)
     options.cubeness = list(dict.fromkeys(options.cubeness))
-    for name, values in DEFAULTS.items():
-        if getattr(options, name) is None:
-            setattr(options, name, values[options.paper])
+    fill_in(options, DEFAULTS)
     check(options)
     options.handles = read_handles(options.handles_file) if options.handles_file else []
     return options
@@ -90,8 +89,6 @@ def _parser(program: str) -> argparse.ArgumentParser:
         usage=f"{program} [INPUT ...] [options]",
         description="Turn meshes into cubic sculptures: pictures, meshes and a report.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
     )
     for title, add_options in GROUPS.items():
         add_options(parser.add_argument_group(title).add_argument)

@@ -4,9 +4,9 @@
 from argparse import Namespace
 from pathlib import Path
 
-from ....solver.console.output import InputError
-from ....solver.console.sources import check_source, listing
-from ..process.output_files import check_writable, meshes, numbered
+from ....solver.console.output import InputError, check_outputs
+from ....solver.console.sources import check_source, check_suffix, listing
+from ..process.output_files import meshes, numbered
 from .formats import ANIMATED, FOR_ENGINES, READABLE, WRITABLE
 
 
@@ -24,7 +24,7 @@ def check(options: Namespace) -> None:
     else:
         _check_single(options)
     if options.report:
-        _check_suffix("--report", options.report, (".json",))
+        check_suffix(f"--report {options.report}", options.report, (".json",))
 
 
 def _check_forms(options: Namespace) -> None:
@@ -53,7 +53,7 @@ def _check_bake(options: Namespace) -> None:
             name = option.replace("_", "-")
             raise InputError(f"--{name}: does not go together with --bake; drop one")
     name = f"name{options.bake}" if options.output_folder else options.bake
-    _check_suffix("--bake", Path(name), ANIMATED)
+    check_suffix(f"--bake {name}", Path(name), ANIMATED)
     if len(options.cubeness) > 1:
         raise InputError("--cubeness: an animation has one; run once for each")
     if options.frames and options.frames[0] > options.frames[1]:
@@ -92,7 +92,7 @@ def _check_batch(options: Namespace) -> None:
     if folder.exists() and not folder.is_dir():
         raise InputError(f"--output-folder {folder}: this is a file; give a folder")
     if report and report.parent.resolve() != folder.resolve():  # which is made later
-        check_writable("--report", [report])
+        check_outputs("--report", [report])
 
 
 def _check_single(options: Namespace) -> None:
@@ -105,7 +105,7 @@ def _check_single(options: Namespace) -> None:
     outputs: dict[str, list[Path]] = {}
     if not options.no_render:
         options.output = options.output or Path("cubic_craft.png")
-        _check_suffix("--output", options.output, (".png",))
+        check_suffix(f"--output {options.output}", options.output, (".png",))
         outputs["--output"] = numbered(options.output, options.turntable)
     if options.save_mesh is not None:
         options.save_mesh = Path(options.save_mesh)
@@ -116,19 +116,11 @@ def _check_single(options: Namespace) -> None:
             outputs[option] = [path]
     sources = (options.input, options.handles_file, options.form_object)
     for option, paths in outputs.items():
-        check_writable(option, paths)
-        for source in filter(None, sources):
-            if source.resolve() in (path.resolve() for path in paths):
-                raise InputError(f"{option} {source}: this is the input; give another name")
-
-
-def _check_suffix(option: str, path: Path, allowed: tuple[str, ...]) -> None:
-    if path.suffix.lower() not in allowed:
-        raise InputError(f"{option} {path}: the name must end in {listing(allowed)}")
+        check_outputs(option, paths, filter(None, sources))
 
 
 def _check_mesh(options: Namespace, path: Path) -> None:
-    _check_suffix("--save-mesh", path, WRITABLE)
+    check_suffix(f"--save-mesh {path}", path, WRITABLE)
     if options.low_poly and path.suffix.lower() not in FOR_ENGINES:
         raise InputError(f"--low-poly: is for --save-mesh with {listing(FOR_ENGINES)}")
 

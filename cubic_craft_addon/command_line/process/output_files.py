@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Output files: their names, checked before any work is done."""
+"""The names of output files."""
 
 from argparse import Namespace
 from pathlib import Path
-
-from ....solver.console.output import check_folder, check_place
 
 
 def per_cubeness(path: Path, cubeness: list[float]) -> list[Path]:
@@ -38,13 +36,3 @@ def written(options: Namespace) -> list[Path]:
     mesh, animation = options.save_mesh, [options.bake] if options.bake else []
     own = meshes(mesh, options.cubeness, options.low_poly) if mesh else []
     return pictures + own + animation
-
-
-def check_writable(option: str, paths: list[Path]) -> None:
-    """Refuse paths that cannot be written, before the long work starts.
-
-    Raises InputError: naming the option, the path and the cure.
-    """
-    for path in paths:
-        check_place(f"{option} {path}", path)
-    check_folder(f"{option} {paths[0]}", paths[0].parent)

@@ -10,9 +10,9 @@ import numpy as np
 from mathutils import Euler, Matrix, Vector
 
 from ....solver import Progress
-from ....solver.console.crossing_words import end_words
 from ....solver.console.method_options import settings_from
 from ....solver.console.output import InputError
+from ....solver.console.run_words import end_words
 from ....solver.method import Method
 from ... import mesh_bridge
 from ...handles import Handle

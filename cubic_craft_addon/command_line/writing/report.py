@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ....solver.console.method_options import names_of_options
+from ....solver.console.run_words import numbers_of
 from ....solver.method import Advanced, Kept, KeptInScene, Style, StyleInScene
 from ...environment.requirements import new_engine_warnings
 from ...run.pipeline import MemberProblem, Solution
@@ -84,10 +85,7 @@ def _run(cubeness: float, solution: Solution, problem: MemberProblem) -> dict[st
     result = solution.result
     return {
         "cubeness": cubeness,
-        "iterations": result.iterations,
-        "converged": result.converged,
-        "crossings": result.crossings,
-        "energy": {name: getattr(result.energy, name) for name in ("total", "arap", "cubic")},
+        **numbers_of(result),
         "seconds": {
             "setup": problem.seconds,
             "solve": solution.seconds,

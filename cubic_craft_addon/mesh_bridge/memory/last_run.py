@@ -11,7 +11,7 @@ from typing import Any
 
 import bpy
 
-from ....solver.console.crossing_words import end_words
+from ....solver.console.run_words import end_words
 from ..access.note import read_note, write_note
 
 

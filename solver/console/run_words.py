@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is said of faces that cross: in the panel and on the command line alike."""
+"""What is said of a run: in the panel, on the command line and in reports alike."""
 
 from typing import Any
 
@@ -22,6 +22,17 @@ def crossing_words(crossings: int | None, pressed: int | None) -> tuple[str, boo
     if failed > 0:
         return f"{failed:,} faces still cross", True
     return (f"{crossings:,} faces cross: parts press into each other" if crossings else ""), False
+
+
+def numbers_of(result: Any) -> dict[str, Any]:
+    """Return what a report has of a `Result`."""
+    energies = {name: float(getattr(result.energy, name)) for name in ("total", "arap", "cubic")}
+    return {
+        "iterations": result.iterations,
+        "converged": bool(result.converged),
+        "crossings": result.crossings,
+        "energy": energies,
+    }
 
 
 def end_words(end: str, run: Any) -> str:
