@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:1] = [str(ROOT / "scripts"), str(ROOT)]  # not this folder: its names are too common
 
 from benchmark import runs  # noqa: E402
-from benchmark.meshes import known_meshes, made_meshes  # noqa: E402
+from benchmark.meshes import known_meshes  # noqa: E402
 from benchmark.page import page  # noqa: E402
 
 BUILD = ROOT / "build" / "bench"
@@ -39,7 +39,6 @@ def main():
     meshes = known_meshes(options.meshes)
     if options.quick:
         meshes = {name: mesh for name, mesh in meshes.items() if name in WITH_PYMESHLAB}
-    made = made_meshes(4 if options.quick else 6)
     results = {"machine": runs.machine_line(), "runs": count, "pymeshlab": [], "defaults": []}
 
     def measure(part, function, mesh, cubeness):
@@ -51,7 +50,7 @@ def main():
     for mesh in (meshes[name] for name in WITH_PYMESHLAB if name in meshes):
         for cubeness in (0.2, 0.4) if mesh.vertices < LARGE else (0.4,):
             measure("pymeshlab", runs.beside_pymeshlab, mesh, cubeness)
-    for mesh in (*meshes.values(), *made):
+    for mesh in meshes.values():
         measure("defaults", runs.both_settings, mesh, 0.4)
     BUILD.mkdir(parents=True, exist_ok=True)
     (BUILD / "results.json").write_text(json.dumps(results), encoding="utf-8")

@@ -54,18 +54,3 @@ def known_meshes(folder):
     if not meshes:
         meshes = [keep(name, CACHE / f"{name}.npz", *shapes.blob(n)) for name, n in BLOBS.items()]
     return {mesh.name: mesh for mesh in meshes}
-
-
-def made_meshes(fineness):
-    """Return what artists bring and the usual meshes are not: many parts, clothes, coarse cages.
-
-    With a `fineness` of 6, character and dressed body have about 50,000 vertices.
-    """
-    made = {
-        "character": shapes.character(fineness),
-        "dressed body": shapes.dressed_body(fineness),
-        "coarse character": shapes.character(3),
-        "sphere 16 x 8": shapes.sphere(16, 8),
-        "sphere 64 x 32": shapes.sphere(64, 32),
-    }
-    return [keep(name, CACHE / f"made-{name}.npz", *mesh) for name, mesh in made.items()]
