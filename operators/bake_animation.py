@@ -6,10 +6,9 @@ from pathlib import Path
 import bpy
 
 from ..cubic_craft_addon.animation.bake import Bake, BakeOptions
-from ..cubic_craft_addon.animation.properties import BakeProperties, bake_properties, source_of
+from ..cubic_craft_addon.animation.properties import BakeProperties, bake_settings, source_of
 from ..cubic_craft_addon.animation.sources import OfSources
 from ..solver import CubicCraftError
-from ._shared.given_or_shared import given_or_shared
 from ._shared.selection import poll_sources, selected_sources
 from ._shared.watched_operator import WatchedOperator
 
@@ -38,7 +37,7 @@ class CUBIC_CRAFT_OT_bake_animation(WatchedOperator, BakeProperties, bpy.types.O
         return Bake(OfSources(sources), sources, self._options(context.scene))
 
     def _options(self, scene):
-        values = given_or_shared(self, bake_properties(scene), BakeProperties)
+        values = bake_settings.given(self, scene)
         is_given = self.properties.is_property_set("frame_start")
         is_own = values["use_range"] or is_given or self.properties.is_property_set("frame_end")
         start, end = scene.frame_start, scene.frame_end

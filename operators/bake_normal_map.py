@@ -5,10 +5,9 @@ import bpy
 
 from ..cubic_craft_addon import mesh_bridge
 from ..cubic_craft_addon.handles.owner import panel_object
-from ..cubic_craft_addon.send.normal_map import MapOptions, make_normal_map
-from ..cubic_craft_addon.send.properties import NormalMapProperties, normal_map_properties
+from ..cubic_craft_addon.send.normal_map import make_normal_map
+from ..cubic_craft_addon.send.properties import MapOptions, NormalMapProperties, normal_map_settings
 from ..solver import CubicCraftError
-from ._shared.given_or_shared import given_or_shared
 from ._shared.selection import poll_any_usable, poll_object_mode, poll_work, refuse, report_all
 from ._shared.unexpected_errors import reporting
 
@@ -38,7 +37,7 @@ class CUBIC_CRAFT_OT_bake_normal_map(NormalMapProperties, bpy.types.Operator):
         obj = panel_object(context)
         if obj is None:
             raise CubicCraftError("Select a mesh object first")
-        values = given_or_shared(self, normal_map_properties(context.scene), NormalMapProperties)
+        values = normal_map_settings.given(self, context.scene)
         if context.window is not None:
             context.window.cursor_set("WAIT")
         try:

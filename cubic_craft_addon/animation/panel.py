@@ -8,7 +8,7 @@ import bpy
 from .. import live
 from ..screen.text_fit import draw_wrapped
 from ..ui import buttons
-from .properties import bake_properties, source_of
+from .properties import bake_settings, source_of
 from .sources import animated_settings
 
 SECTION = "CUBIC_CRAFT_PT_animation"
@@ -32,7 +32,7 @@ def draw_animated(context: bpy.types.Context, layout: Any, obj: bpy.types.Object
 def draw(layout, obj):
     """Draw the section for a mesh object."""
     scene = bpy.context.scene
-    properties = bake_properties(scene)
+    properties = bake_settings.of(scene)
     source = source_of(obj)
     if source != obj:
         layout.label(text=f"Baked from {source.name}", icon="ACTION")

@@ -1,92 +1,62 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which frames are baked, and where to: properties of the scene."""
 
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import PointerProperty
 
-PROPERTY = "cubic_craft_animation"
-"""name of the property of scenes"""
+from ...solver.setting import setting
+from ..environment.scene_settings import SceneSettings, properties_of
+
 SOURCE = "cubic_craft_source"
 """name of the property of baked objects: what they were baked from"""
-
-_FORMATS = (
-    (
-        "CACHE",
-        "Point Cache",
-        "A PC2 file with the positions of all frames, which a Mesh Cache modifier plays back",
-    ),
-    (
-        "ALEMBIC",
-        "Alembic",
-        "An Alembic file for other programs too, which a Mesh Sequence Cache modifier plays back",
-    ),
-    (
-        "USD",
-        "USD",
-        "A USD file for other programs too, which a Mesh Sequence Cache modifier plays back",
-    ),
-    (
-        "SHAPE_KEYS",
-        "Shape Keys",
-        "Absolute shape keys in the .blend file, one for each frame; for short animations",
-    ),
-)
+_FRAMES = -1048574, 1048574
 
 # Blender 5 warns of a path with // in a property that does not say so; 4.2 does not know the word.
 _RELATIVE: set[Any] = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (5, 0) else set()
 
 
+@dataclass(frozen=True)
+class BakeSettings:
+    """Which frames are baked, and where to, as it is chosen."""
+
+    use_range: bool = setting(False)(
+        "Own Range", "Bake from Start to End, instead of the frames of the scene"
+    )
+    frame_start: int = setting(1, limits=_FRAMES)("Start", "First frame to bake")
+    frame_end: int = setting(250, limits=_FRAMES)("End", "Last frame to bake")
+    format: str = setting("CACHE")(
+        "Format",
+        "How the baked frames are stored",
+        choices={
+            "CACHE": "Point Cache: A PC2 file with the positions of all frames, which a Mesh Cache"
+            " modifier plays back",
+            "ALEMBIC": "Alembic: An Alembic file for other programs too, which a Mesh Sequence"
+            " Cache modifier plays back",
+            "USD": "USD: A USD file for other programs too, which a Mesh Sequence Cache modifier"
+            " plays back",
+            "SHAPE_KEYS": "Shape Keys: Absolute shape keys in the .blend file, one for each frame;"
+            " for short animations",
+        },
+    )
+    folder: str = setting("//cubic_craft", subtype="DIR_PATH")(
+        "Folder", "Where the files of baked frames are stored; // is the folder of the .blend file"
+    )
+
+
 class BakeProperties:
     """What the panel and the operator share."""
 
-    use_range: BoolProperty(
-        name="Own Range",
-        description="Bake from Start to End, instead of the frames of the scene",
-        default=False,
-        options=set(),
-    )
-    frame_start: IntProperty(
-        name="Start",
-        description="First frame to bake",
-        default=1,
-        min=-1048574,
-        max=1048574,
-        options=set(),
-    )
-    frame_end: IntProperty(
-        name="End",
-        description="Last frame to bake",
-        default=250,
-        min=-1048574,
-        max=1048574,
-        options=set(),
-    )
-    format: EnumProperty(
-        name="Format",
-        description="How the baked frames are stored",
-        items=_FORMATS,
-        default="CACHE",
-        options=set(),
-    )
-    folder: StringProperty(
-        name="Folder",
-        description="Where the files of baked frames are stored; // is the folder of the .blend"
-        " file",
-        subtype="DIR_PATH",
-        default="//cubic_craft",
-        options=_RELATIVE,
-    )
+    __annotations__ = properties_of(BakeSettings, folder={"options": _RELATIVE})
 
 
 class CubicCraftAnimation(BakeProperties, bpy.types.PropertyGroup):
     """The settings of Cubify Animation, of a scene."""
 
 
-def bake_properties(scene: bpy.types.Scene) -> CubicCraftAnimation:
-    """Return the settings of a scene."""
-    return getattr(scene, PROPERTY)
+bake_settings = SceneSettings("cubic_craft_animation", BakeSettings, CubicCraftAnimation)
 
 
 def source_of(obj: bpy.types.Object) -> bpy.types.Object:
@@ -96,13 +66,11 @@ def source_of(obj: bpy.types.Object) -> bpy.types.Object:
 
 def register():
     """Add the properties."""
-    bpy.utils.register_class(CubicCraftAnimation)
-    setattr(bpy.types.Scene, PROPERTY, PointerProperty(type=CubicCraftAnimation))
+    bake_settings.register()
     setattr(bpy.types.Object, SOURCE, PointerProperty(type=bpy.types.Object, options={"HIDDEN"}))
 
 
 def unregister():
     """Remove them."""
     delattr(bpy.types.Object, SOURCE)
-    delattr(bpy.types.Scene, PROPERTY)
-    bpy.utils.unregister_class(CubicCraftAnimation)
+    bake_settings.unregister()

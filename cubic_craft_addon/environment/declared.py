@@ -33,8 +33,8 @@ def declared(setting: Setting, **others: Any) -> Any:
         how["soft_min"], how["soft_max"] = setting.soft
     is_vector = isinstance(setting.default, tuple)
     kind = type(setting.default[0] if is_vector else setting.default)
-    if is_vector:
+    if kind is not bool or is_vector:
         how["subtype"] = setting.subtype
-    elif kind is float:
+    if kind is float and not is_vector:
         how["step"], how["precision"] = 1, setting.digits
     return _KINDS[kind, is_vector](**{**how, **others})

@@ -22,6 +22,7 @@ from ..read.object_frame import placement_alone
 from . import low_poly
 from .bake import Studio, bake_normals, check_cycles, studio
 from .few_polygons import few_polygons
+from .properties import MapOptions
 from .split import OldSurface
 
 
@@ -98,14 +99,6 @@ class MapMaterials:
         material.node_tree.nodes.active = texture
         self._nodes.append((material, texture))
         return material
-
-
-@dataclass(frozen=True)
-class MapOptions:
-    """How a normal map is baked: see `NormalMapProperties`."""
-
-    triangles: int = 1000
-    resolution: int = 1024
 
 
 @dataclass(frozen=True)

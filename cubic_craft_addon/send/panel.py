@@ -4,7 +4,7 @@
 import bpy
 
 from .. import live
-from .properties import normal_map_properties
+from .properties import normal_map_settings
 from .targets import SENT, TARGETS
 
 SECTION = "CUBIC_CRAFT_PT_send"
@@ -18,7 +18,7 @@ def draw(layout, obj):
         target = TARGETS[key]
         button = column.operator("cubic_craft.send_to", text=target.button, icon=target.icon)
         button.target = key
-    properties = normal_map_properties(bpy.context.scene)
+    properties = normal_map_settings.of(bpy.context.scene)
     column = layout.column()
     column.prop(properties, "triangles")
     column.prop(properties, "resolution")

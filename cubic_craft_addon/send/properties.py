@@ -1,52 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How normal maps are baked: properties of the scene."""
+"""How normal maps are baked: properties of the scene, which the operator has, too."""
+
+from dataclasses import dataclass
 
 import bpy
-from bpy.props import IntProperty, PointerProperty
 
-PROPERTY = "cubic_craft_normal_map"
-"""name of the property of scenes"""
+from ...solver.setting import setting
+from ..environment.scene_settings import SceneSettings, properties_of
+
+
+@dataclass(frozen=True)
+class MapOptions:
+    """How a normal map is baked."""
+
+    triangles: int = setting(1000, limits=(12, 10_000_000), soft=(12, 100_000))(
+        "Triangles", "Largest number of triangles of the low-poly mesh, approximately"
+    )
+    resolution: int = setting(1024, limits=(64, 8192), subtype="PIXEL")(
+        "Resolution", "Width and height of the normal map"
+    )
 
 
 class NormalMapProperties:
     """What the panel and the operator share."""
 
-    triangles: IntProperty(
-        name="Triangles",
-        description="Largest number of triangles of the low-poly mesh, approximately",
-        default=1000,
-        min=12,
-        max=10_000_000,
-        soft_max=100_000,
-        options=set(),
-    )
-    resolution: IntProperty(
-        name="Resolution",
-        description="Width and height of the normal map",
-        subtype="PIXEL",
-        default=1024,
-        min=64,
-        max=8192,
-        options=set(),
-    )
+    __annotations__ = properties_of(MapOptions)
 
 
 class CubicCraftNormalMap(NormalMapProperties, bpy.types.PropertyGroup):
     """The settings of Bake Normal Map, of a scene."""
 
 
-def normal_map_properties(scene: bpy.types.Scene) -> CubicCraftNormalMap:
-    """Return the settings of a scene."""
-    return getattr(scene, PROPERTY)
-
-
-def register():
-    """Add the properties."""
-    bpy.utils.register_class(CubicCraftNormalMap)
-    setattr(bpy.types.Scene, PROPERTY, PointerProperty(type=CubicCraftNormalMap))
-
-
-def unregister():
-    """Remove them."""
-    delattr(bpy.types.Scene, PROPERTY)
-    bpy.utils.unregister_class(CubicCraftNormalMap)
+normal_map_settings = SceneSettings("cubic_craft_normal_map", MapOptions, CubicCraftNormalMap)
+register, unregister = normal_map_settings.register, normal_map_settings.unregister

@@ -13,7 +13,8 @@ import bpy
 from ....solver.console.output import InputError, refusals_of, replacing
 from ...run import pipeline
 from ...send.file import ready
-from ...send.normal_map import MapOptions, passing_normal_map
+from ...send.normal_map import passing_normal_map
+from ...send.properties import MapOptions
 from ...send.targets import TARGETS, Options, exporter, settings, target_of
 from ..process.output_files import leveled
 from ..process.quiet import captured
