@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
@@ -27,6 +27,21 @@ def has_properties(obj: bpy.types.Object) -> bool:
     objects must check this first.
     """
     return obj.is_property_set(PROPERTY)
+
+
+def active_entry(obj: Any, kind: str) -> Any:
+    """Return what is active in the list of an object, or None; `kind`: "handle" or "region"."""
+    properties = object_properties(obj)
+    entries, number = getattr(properties, f"{kind}s"), getattr(properties, f"active_{kind}")
+    return entries[number] if number < len(entries) else None
+
+
+def remove_active(obj: Any, kind: str) -> None:
+    """Remove what is active in a list of an object; `kind` as of `active_entry`."""
+    properties = object_properties(obj)
+    entries, number = getattr(properties, f"{kind}s"), getattr(properties, f"active_{kind}")
+    entries.remove(number)
+    setattr(properties, f"active_{kind}", max(min(number, len(entries) - 1), 0))
 
 
 def users_of(meshes: Iterable[bpy.types.Mesh]) -> Iterator[bpy.types.Object]:

@@ -9,13 +9,11 @@ from .form import overlay as form_overlay
 from .form import pictures as form_pictures
 from .handles import gizmos as handle_gizmos
 from .handles import overlay as handles_overlay
-from .handles import panel as handles_panel
 from .handles import properties as handles_properties
-from .regions import panel as regions_panel
 from .regions import region
 from .send import properties as send_properties
 from .settings import group_renames, properties
-from .ui import header, menus, panel, preferences
+from .ui import group_list, header, menus, panel, preferences
 
 _modules = (
     handles_properties,
@@ -32,8 +30,7 @@ _modules = (
     handle_gizmos,
     handles_overlay,
     form_overlay,
-    handles_panel,
-    regions_panel,
+    group_list,
     presets,
     panel,
     menus,

@@ -3,9 +3,10 @@
 
 import bpy
 
-from ..cubic_craft_addon.handles.active import active_handle, add_empty
+from ..cubic_craft_addon.handles.active import add_empty
 from ..cubic_craft_addon.handles.owner import panel_object
 from ..cubic_craft_addon.handles.pose import live_target
+from ..cubic_craft_addon.object_properties import active_entry
 from ._shared.selection import poll_handle, refuse, report_all
 from ._shared.unexpected_errors import reporting
 
@@ -25,7 +26,7 @@ class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
     def poll(cls, context):
         if not poll_handle(cls, context):
             return False
-        target = live_target(active_handle(panel_object(context)))
+        target = live_target(active_entry(panel_object(context), "handle"))
         if target is not None:
             return refuse(cls, f'The handle already follows "{target.name}"')
         return True
@@ -33,7 +34,7 @@ class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
     @reporting
     def execute(self, context):
         obj = panel_object(context)
-        handle = active_handle(obj)
+        handle = active_entry(obj, "handle")
         empty = add_empty(context, obj, handle)
         handle.target = empty  # binds it
         if context.view_layer.objects.get(empty.name) == empty:

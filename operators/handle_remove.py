@@ -3,9 +3,9 @@
 
 import bpy
 
-from ..cubic_craft_addon.handles.active import active_handle, is_ours_alone
+from ..cubic_craft_addon.handles.active import is_ours_alone
 from ..cubic_craft_addon.handles.owner import panel_object
-from ..cubic_craft_addon.object_properties import object_properties
+from ..cubic_craft_addon.object_properties import active_entry, remove_active
 from ._shared.selection import poll_handle
 
 
@@ -26,12 +26,8 @@ class CUBIC_CRAFT_OT_handle_remove(bpy.types.Operator):
 
     def execute(self, context):
         obj = panel_object(context)
-        properties = object_properties(obj)
-        target = active_handle(obj).target
-        properties.handles.remove(properties.active_handle)
-        properties.active_handle = max(
-            min(properties.active_handle, len(properties.handles) - 1), 0
-        )
+        target = active_entry(obj, "handle").target
+        remove_active(obj, "handle")
         if target is not None and is_ours_alone(target):
             if context.view_layer.objects.active in (target, None):
                 context.view_layer.objects.active = obj

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Add a region: a vertex group of the mesh, or the selected vertices, with a form of its own."""
+"""Add a region, of a vertex group or of the selected vertices, or remove it."""
 
 import bpy
 
 from ..cubic_craft_addon import live
-from ..cubic_craft_addon.object_properties import object_properties
+from ..cubic_craft_addon.handles.owner import panel_object
+from ..cubic_craft_addon.object_properties import active_entry, object_properties, remove_active
 from ..cubic_craft_addon.regions.region import add_region
 from ._shared.groups import AddsGroup, AddsSelection
+from ._shared.selection import poll_mesh, refuse
 
 
 class CUBIC_CRAFT_OT_region_add(AddsGroup, bpy.types.Operator):
@@ -49,3 +51,27 @@ class CUBIC_CRAFT_OT_region_from_selection(AddsSelection, bpy.types.Operator):
         """Add the region."""
         add_region(obj, group, values)
         return f'Made {count} vertices the region "{group}"'
+
+
+class CUBIC_CRAFT_OT_region_remove(bpy.types.Operator):
+    """Remove the active region."""
+
+    bl_idname = "cubic_craft.region_remove"
+    bl_label = "Remove Region"
+    bl_description = (
+        "Remove the active region, so that its vertices have the settings of the object again. The"
+        " vertex group is kept"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        if not poll_mesh(cls, context, ("OBJECT", "PAINT_WEIGHT")):
+            return False
+        if active_entry(panel_object(context), "region") is None:
+            return refuse(cls, "Add a region first")
+        return True
+
+    def execute(self, context):
+        remove_active(panel_object(context), "region")
+        return {"FINISHED"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The handle that is active in the list of an object, its vertices, and a new one."""
+"""The vertices of a handle of an object, and a new handle."""
 
 from typing import Any
 
@@ -13,13 +13,6 @@ from .own_pose import identify
 
 _MARGIN = 1.1  # size of the empty relative to the vertices it moves
 _SMALLEST = 0.03  # radius of the empty, as part of the extent of the mesh
-
-
-def active_handle(obj) -> Any:
-    """Return the handle of the object that is active in its list, or None."""
-    properties = object_properties(obj)
-    number = properties.active_handle
-    return properties.handles[number] if number < len(properties.handles) else None
 
 
 def add_handle(obj, group):

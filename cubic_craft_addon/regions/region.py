@@ -3,7 +3,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Any
 
 import bpy
 import numpy as np
@@ -89,13 +88,6 @@ def shares_of(regions: Sequence[Region], known: Mapping[str, np.ndarray]) -> np.
     total = weights.sum(axis=1, keepdims=True)
     rest = np.maximum(1.0 - total, 0.0)
     return np.concatenate([rest, weights / np.maximum(total, 1.0)], axis=1)
-
-
-def active_region(obj) -> Any:
-    """Return the region of the object that is active in its list, or None."""
-    properties = object_properties(obj)
-    number = properties.active_region
-    return properties.regions[number] if number < len(properties.regions) else None
 
 
 def add_region(obj: bpy.types.Object, group: str, settings: FormSettings) -> None:

@@ -59,12 +59,15 @@ class CUBIC_CRAFT_PT_main(bpy.types.Panel):
         _draw_cubify(context, layout, obj)
         for identifier, title, draw, is_closed in _SECTIONS:
             title_row, body = layout.panel(identifier, default_closed=is_closed)
-            if identifier in _SWITCHES:
-                _SWITCHES[identifier](title_row, obj)
+            switch = _SWITCHES.get(identifier)
+            if switch is not None:
+                title_row.use_property_split = False
+                title_row.prop(live.own_properties(obj), switch, text="")
             title_row.label(text=title)
             title_row.enabled = job.current() is None
             if body is not None:
                 body.enabled = job.current() is None
+                body.active = switch is None or getattr(live.own_properties(obj), switch)
                 draw(body, obj)
 
 
@@ -183,8 +186,8 @@ _SECTIONS = (
     ("CUBIC_CRAFT_PT_solver", "Solver", _draw_solver, True),
 )
 _SWITCHES = {
-    handles_panel.SECTION: handles_panel.draw_switch,
-    regions_panel.SECTION: regions_panel.draw_switch,
+    handles_panel.SECTION: "use_handles",
+    regions_panel.SECTION: "use_regions",
 }
 
 

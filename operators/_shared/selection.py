@@ -4,8 +4,8 @@
 from ...cubic_craft_addon import job, live, mesh_bridge
 from ...cubic_craft_addon.environment.modes import MESSAGE, is_mode_usable
 from ...cubic_craft_addon.environment.requirements import check_known_requirements
-from ...cubic_craft_addon.handles.active import active_handle
 from ...cubic_craft_addon.handles.owner import panel_object, posed_mesh
+from ...cubic_craft_addon.object_properties import active_entry
 from ...cubic_craft_addon.ui import seen
 from ...solver import CubicCraftError
 
@@ -73,7 +73,7 @@ def poll_handle(operator_class, context):
     """Return whether there is an active handle."""
     if not poll_mesh(operator_class, context):
         return False
-    if active_handle(panel_object(context)) is None:
+    if active_entry(panel_object(context), "handle") is None:
         return refuse(operator_class, "Add a handle first")
     return True
 

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Vector
-from posing import IDENTITY, LEFT, RIGHT, add_posable, follow, pin, pose
+from posing import IDENTITY, LEFT, RIGHT, add_posable, pin, pose
 from recorder import Recorder
 from rich_mesh import position_of
 from scene import add_empty, add_monkey, cubify, select
@@ -36,7 +36,7 @@ def test_the_section_has_a_button_for_each(part):
     pin(obj, RIGHT)
     layout = Recorder()
     part("handles.panel").draw(layout, obj)
-    verbs = ("add", "remove", "move", "pin_selection", "reset_pose")
+    verbs = ("add", "remove", "pin_selection", "reset_pose")
     assert {f"cubic_craft.handle_{verb}" for verb in verbs} <= set(layout.drawn)
     assert {"handles", "group", "threshold", "hold_rest"} <= set(layout.drawn)
 
@@ -70,13 +70,13 @@ def test_what_is_missing_is_said_before_the_click():
     add_monkey()
     with pytest.raises(RuntimeError, match="no vertex group; add one, or use Pin Selection"):
         bpy.ops.cubic_craft.handle_add()
-    for verb in ("remove", "move", "follow"):
+    for verb in ("remove", "follow"):
         with pytest.raises(RuntimeError, match="Add a handle first"):
             getattr(bpy.ops.cubic_craft, f"handle_{verb}")()
     with pytest.raises(RuntimeError, match="No handle is posed or follows anything"):
         bpy.ops.cubic_craft.handle_reset_pose()
     bpy.context.view_layer.objects.active = None
-    for verb in ("add", "remove", "move", "follow", "reset_pose"):
+    for verb in ("add", "remove", "follow", "reset_pose"):
         with pytest.raises(RuntimeError, match="Make a mesh object active first"):
             getattr(bpy.ops.cubic_craft, f"handle_{verb}")()
 
@@ -244,17 +244,6 @@ def test_remove_leaves_a_target_that_something_else_uses(use):
     select(obj)
     bpy.ops.cubic_craft.handle_remove()
     assert empty.name in bpy.context.scene.objects
-
-
-def test_move_changes_places_and_stops_at_the_ends():
-    obj, _, _ = add_posable()
-    pin(obj, LEFT)
-    empty = follow(obj, RIGHT)
-    assert bpy.ops.cubic_craft.handle_move(direction="DOWN") == {"CANCELLED"}
-    assert bpy.ops.cubic_craft.handle_move(direction="UP") == {"FINISHED"}
-    assert groups() == [RIGHT, LEFT]
-    assert obj.cubic_craft.handles[0].target == empty
-    assert obj.cubic_craft.active_handle == 0
 
 
 def test_reset_pose_puts_every_target_back(posed):

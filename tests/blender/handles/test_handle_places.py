@@ -85,8 +85,7 @@ def test_the_list_may_change_while_live_runs(places, live, begin):
     session = tick_to_rest(begin(obj))
     middles = places.Middles()
     before = [place.center for place in places.places_of(obj, middles)]
-    obj.cubic_craft.active_handle = 1
-    bpy.ops.cubic_craft.handle_move(direction="UP")
+    obj.cubic_craft.handles.move(1, 0)
     assert places.places_of(obj, middles) == [], "Live has not seen it yet"
     tick_to_rest(session)
     after = [place.center for place in places.places_of(obj, middles)]

@@ -77,7 +77,7 @@ def test_where_handles_overlap_the_first_counts():
     cubify()
     assert position_of(obj.data)[left].tobytes() == before[left].tobytes()
     np.testing.assert_allclose(position_of(obj.data)[more], before[more] + [0, 0, 1], atol=1e-6)
-    assert bpy.ops.cubic_craft.handle_move(direction="UP") == {"FINISHED"}
+    obj.cubic_craft.handles.move(1, 0)
     both = np.intersect1d(np.arange(len(before) // 2), left)
     cubify()
     np.testing.assert_allclose(position_of(obj.data)[both], before[both] + [0, 0, 1], atol=1e-6)

@@ -67,7 +67,7 @@ def test_in_other_modes_the_way_out_takes_the_place_of_a_message(part, problem, 
 
 @pytest.mark.parametrize(
     ("module", "count"),
-    [("ui.panel", 4), ("ui.buttons", 3), ("ui.status_panel", 1), ("handles.panel", 6)],
+    [("ui.panel", 4), ("ui.buttons", 3), ("ui.status_panel", 1), ("handles.panel", 3)],
 )
 def test_every_button_of_the_panel_is_an_operator_that_exists(extension, module, count):
     panel = importlib.import_module(f"{extension.__name__}.cubic_craft_addon.{module}")
