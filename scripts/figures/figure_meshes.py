@@ -65,8 +65,6 @@ ROLES = {
     "monkey": Role(shapes.monkey),
     "bear": Role(shapes.bear),
     "fox": Role(shapes.fox, yaw=-25.0, size=1.5),
-    "duck": Role(shapes.duck, yaw=60.0),
-    "letter": Role(shapes.letter, yaw=20.0),
 }
 
 

@@ -4,8 +4,6 @@
 Each function adds an object to the scene, selected and active, and returns it.
 """
 
-import math
-
 import bmesh
 import bpy
 from mathutils import Matrix, Vector
@@ -21,15 +19,8 @@ BEAR = (
     ((0.33, -0.42, -0.85), (0.20, 0.50, 0.20)),
     ((0.33, -0.86, -0.78), (0.22, 0.12, 0.28)),
 )
-"""body, head, snout, ear, arm, leg and foot"""
-DUCK = (
-    ((0.0, 0.10, 0.66), (0.68, 1.00, 0.66)),
-    ((0.0, 1.05, 1.12), (0.34, 0.42, 0.22)),
-    ((0.0, -0.52, 1.68), (0.52, 0.52, 0.50)),
-    ((0.0, -1.10, 1.60), (0.26, 0.36, 0.12)),
-    ((0.64, 0.16, 0.80), (0.18, 0.56, 0.34)),
-)
-"""center and radii of balls that are melted into one; those with x > 0 are on both sides"""
+"""center and radii of balls that are melted into one; those with x > 0 are on both sides: body,
+head, snout, ear, arm, leg and foot"""
 FOX = (
     ((0.0, 0.02, 0.0), (0.0, -0.02, 0.62), 0.36, 0.30),
     ((0.0, -0.02, 0.72), (0.0, -0.04, 0.95), 0.17, 0.16),
@@ -63,11 +54,6 @@ def bear() -> bpy.types.Object:
     return _melted_balls("Bear", BEAR)
 
 
-def duck() -> bpy.types.Object:
-    """Add a rubber duck."""
-    return _melted_balls("Duck", DUCK)
-
-
 def fox() -> bpy.types.Object:
     """Add a fox that stands like a person, arms and ears aslant, with eyes and a nose."""
     balls = [ball for row in FOX for ball in _row(*row)]
@@ -79,18 +65,6 @@ def fox() -> bpy.types.Object:
     edited.free()
     obj.data.shade_smooth()
     return obj
-
-
-def letter() -> bpy.types.Object:
-    """Add an ampersand with round edges."""
-    bpy.ops.object.text_add(rotation=(math.pi / 2, 0.0, 0.0))
-    curve = bpy.context.object.data
-    curve.body, curve.size = "&", 3.0
-    curve.extrude, curve.bevel_depth, curve.bevel_resolution = 0.25, 0.12, 4
-    bpy.ops.object.convert(target="MESH")
-    bpy.ops.object.transform_apply()
-    _melt(bpy.context.object)
-    return bpy.context.object
 
 
 def _row(begin: tuple, end: tuple, radius: float, last: float) -> list[tuple]:
@@ -119,18 +93,12 @@ def _melted_balls(name: str, balls: tuple, subdivisions: int = 4) -> bpy.types.O
     bpy.context.collection.objects.link(obj)
     bpy.context.view_layer.objects.active = obj
     obj.select_set(True)
-    _melt(obj)
-    # Else its voxels would have it lean to a side.
-    obj.modifiers.new("Mirror", "MIRROR").use_bisect_axis[0] = True
-    bpy.ops.object.modifier_apply(modifier="Mirror")
-    return obj
-
-
-def _melt(obj: bpy.types.Object) -> None:
-    """Make the active object one smooth closed surface."""
     remesh = obj.modifiers.new("Remesh", "REMESH")
     remesh.mode, remesh.voxel_size = "VOXEL", VOXEL
     obj.modifiers.new("Smooth", "SMOOTH").iterations = SMOOTHING
-    for modifier in ("Remesh", "Smooth"):
+    # Else its voxels would have it lean to a side.
+    obj.modifiers.new("Mirror", "MIRROR").use_bisect_axis[0] = True
+    for modifier in ("Remesh", "Smooth", "Mirror"):
         bpy.ops.object.modifier_apply(modifier=modifier)
     bpy.ops.object.shade_smooth()
+    return obj

@@ -18,7 +18,7 @@ from cubic_craft.cubic_craft_addon.command_line.picture.gallery import (
 from .figure_meshes import FigureMeshes
 
 CAST = {"owl": 0.4, "bunny": 0.4, "armadillo": 0.4, "spot": 0.4, "horse": 0.4}
-OWN_CAST = {"bear": 0.4, "duck": 0.4, "monkey": 0.4, "letter": 0.4}
+OWN_CAST = {"bear": 0.4, "monkey": 0.4, "fox": 0.4}
 """name: cubeness"""
 GAP = 0.35
 """between neighbors, in the units of the gallery"""
