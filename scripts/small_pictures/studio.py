@@ -9,6 +9,8 @@ import bpy
 import numpy as np
 from mathutils import Euler, Vector
 
+from cubic_craft.cubic_craft_addon.command_line.picture.studio import add_sun, light_around
+
 LIGHTS = (
     # turn about the camera's up and right axes in degrees, strength, angular size in degrees
     ((-38.0, -36.0), 2.7, 8.0),
@@ -47,19 +49,9 @@ def set_up(picture: Picture, samples: int) -> bpy.types.Scene:
     scene.collection.objects.link(camera)
     scene.camera = camera
     for (about_up, about_right), strength, size in LIGHTS:
-        light = bpy.data.lights.new("Light", "SUN")
-        light.energy, light.angle = strength, math.radians(size)
-        lamp = bpy.data.objects.new("Light", light)
         aside = Euler((math.radians(about_right), math.radians(about_up), 0.0), "XYZ")
-        lamp.rotation_euler = (turn @ aside.to_matrix()).to_euler()
-        scene.collection.objects.link(lamp)
-    world = bpy.data.worlds.new("World")
-    if world.node_tree is None:  # before Blender 5.0
-        world.use_nodes = True
-    background = world.node_tree.nodes["Background"]
-    background.inputs["Color"].default_value = (0.85, 0.9, 1.0, 1.0)
-    background.inputs["Strength"].default_value = 0.35
-    scene.world = world
+        add_sun(scene, "Light", (turn @ aside.to_matrix()).to_euler(), strength, size)
+    light_around(scene, (0.85, 0.9, 1.0), 0.35)
     scene.view_settings.view_transform = "Standard"
     scene.cycles.samples, scene.cycles.use_denoising = samples, True
     scene.cycles.device = "CPU"

@@ -2,10 +2,10 @@
 """Light, floor, camera and materials of the picture."""
 
 import math
-from typing import Any
+from typing import Any, cast
 
 import bpy
-from mathutils import Vector
+from mathutils import Euler, Vector
 
 from .gallery import ELEVATION, Gallery
 
@@ -45,18 +45,31 @@ def furnish(gallery: Gallery, aspect: float) -> None:
 def _lights(scene: bpy.types.Scene) -> None:
     # Suns light every copy alike, however wide the gallery is.
     for name, (azimuth, elevation), strength, size, color in LIGHTS:
-        light = bpy.data.lights.new(name, "SUN")
-        light.energy = strength
-        light.angle = math.radians(size)
-        light.color = color
-        lamp = bpy.data.objects.new(name, light)
-        lamp.rotation_euler = (math.radians(90.0 - elevation), 0.0, math.radians(azimuth))
-        scene.collection.objects.link(lamp)
-    world = bpy.data.worlds.new("Studio")
-    background = _nodes(world)["Background"]
-    background.inputs["Color"].default_value = (0.93, 0.96, 1.0, 1.0)
-    background.inputs["Strength"].default_value = 0.22
-    scene.world = world
+        turn = Euler((math.radians(90.0 - elevation), 0.0, math.radians(azimuth)))
+        add_sun(scene, name, turn, strength, size).color = color
+    light_around(scene, (0.93, 0.96, 1.0), 0.22)
+
+
+def add_sun(
+    scene: bpy.types.Scene, name: str, turn: Euler, strength: float, size: float
+) -> bpy.types.Light:
+    """Add a sun, of a size in degrees, that shines down its Z axis, turned so; return it."""
+    light = cast("bpy.types.SunLight", bpy.data.lights.new(name, "SUN"))
+    light.energy, light.angle = strength, math.radians(size)
+    lamp = bpy.data.objects.new(name, light)
+    lamp.rotation_euler = turn
+    scene.collection.objects.link(lamp)
+    return light
+
+
+def light_around(
+    scene: bpy.types.Scene, color: tuple[float, float, float], strength: float
+) -> None:
+    """Give the scene light (linear RGB) from all sides."""
+    scene.world = bpy.data.worlds.new("World")
+    background = _nodes(scene.world)["Background"]
+    background.inputs["Color"].default_value = (*color, 1.0)
+    background.inputs["Strength"].default_value = strength
 
 
 def _floor(gallery: Gallery) -> None:
