@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from . import shapes
+from solver import ball
 
 CACHE = Path(__file__).resolve().parents[2] / "build" / "bench" / "meshes"
 FILES = ("spot.obj", "homer.obj", "bunny.obj", "owl.obj", "horse.ply", "armadillo.obj")
-BLOBS = {"blob-10k": 5, "blob-41k": 6}
-"""stand-ins and their subdivisions"""
+BLOBS = {"blob-10k": 10_000, "blob-40k": 40_000}
+"""stand-ins and their vertices"""
 
 
 @dataclass(frozen=True)
@@ -47,10 +47,16 @@ def keep(name, path, V, F):
     return Mesh(name, len(V), path)
 
 
+def blob(vertices):
+    """Return V (n,3) and F (m,3) of a ball with bumps."""
+    V, F = ball(vertices)
+    return V * [1.0, 0.8, 1.3] * (1.0 + 0.2 * np.sin(5.0 * V[:, [1, 2, 0]])), F
+
+
 def known_meshes(folder):
     """Return {name: Mesh} of the usual meshes in a folder, or of stand-ins if it has none."""
     sources = [folder / name for name in FILES if (folder / name).exists()]
     meshes = [keep(s.stem, CACHE / f"{s.stem}.npz", *read(s)) for s in sources]
     if not meshes:
-        meshes = [keep(name, CACHE / f"{name}.npz", *shapes.blob(n)) for name, n in BLOBS.items()]
+        meshes = [keep(name, CACHE / f"{name}.npz", *blob(n)) for name, n in BLOBS.items()]
     return {mesh.name: mesh for mesh in meshes}

@@ -18,8 +18,7 @@ from pathlib import Path
 
 from solver import PAPER, ProxyOptions, Setup, SolverOptions, Stylization, rest_mesh, run
 
-from .meshes import read
-from .shapes import blob
+from .meshes import blob, read
 
 PACKAGES = ("numpy", "scipy", "taichi", "quadrants", "cholespy", "pymeshlab", "bpy")
 SETTINGS = {"paper": (PAPER, False), "defaults": (ProxyOptions(), True)}
@@ -121,7 +120,7 @@ def both_settings(path, cubeness, runs):
 
 def _load_kernels():
     """Solve something, so that nothing has to be imported, compiled or loaded in what follows."""
-    solve(*blob(3), 0.4, max_iterations=3)
+    solve(*blob(600), 0.4, max_iterations=3)
 
 
 def _solve_by_pymeshlab(V, F, cubeness):

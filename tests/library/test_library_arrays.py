@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 from cubic_craft import PAPER, CubicCraftError, rest_mesh, stylize, stylize_mesh
-from scripts.benchmark.shapes import blob
+from tests.icospheres import blob
 
 V, F = blob(2)
 QUICK = {"device": "numpy", "proxy": PAPER}

@@ -14,7 +14,7 @@ from cubic_craft import PAPER, CubicCraftError, ProxyOptions, stylize
 from cubic_craft.command_line import arguments, style
 from cubic_craft.mesh.polygons import triangulate
 from cubic_craft.styles import forms
-from scripts.benchmark.shapes import blob
+from tests.icospheres import blob
 
 V, F = blob(2)
 ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb")

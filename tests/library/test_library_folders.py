@@ -10,7 +10,7 @@ import pytest
 import trimesh
 from command import COMMAND, QUICK, cubic_craft, in_this_process, quick, refused
 
-from scripts.benchmark.shapes import blob
+from tests.icospheres import blob
 
 V, F = blob(1)
 EXPECTED = quick(V, F).positions

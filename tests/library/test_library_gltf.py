@@ -10,7 +10,7 @@ from command import QUICK, cubic_craft, quick, refused
 from scipy.spatial.transform import Rotation
 
 from cubic_craft.command_line.scene_file import read
-from scripts.benchmark.shapes import blob
+from tests.icospheres import blob
 
 V, F = blob(2)
 V = V.astype(np.float32).astype(float)

@@ -13,7 +13,7 @@ import trimesh
 from command import COMMAND, QUICK, in_a_process, refused
 
 from cubic_craft.console.output import replacing
-from scripts.benchmark.shapes import blob
+from tests.icospheres import blob
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 PLY = """ply

@@ -3,8 +3,8 @@
 
 import pytest
 
-from scripts.benchmark import page, runs, shapes
-from scripts.benchmark.meshes import keep
+from scripts.benchmark import page, runs
+from scripts.benchmark.meshes import blob, keep
 
 NOTHING = {"machine": "A machine.", "runs": 3, "pymeshlab": [], "defaults": []}
 
@@ -57,7 +57,7 @@ def test_the_first_time_counts_and_the_median_needs_every_run():
 
 
 def test_both_settings_in_turn(tmp_path):
-    path = keep("blob", tmp_path / "blob.npz", *shapes.blob(1)).path
+    path = keep("blob", tmp_path / "blob.npz", *blob(42)).path
     results = runs.both_settings(path, 0.4, runs=2)
     assert [len(results[name]) for name in runs.SETTINGS] == [2, 2]
     paper, ours = (results[name][0] for name in runs.SETTINGS)

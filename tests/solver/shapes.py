@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from scripts.benchmark.shapes import ICOSAHEDRON, ICOSAHEDRON_FACES, bumpy, subdivided
+from tests.icospheres import ICOSAHEDRON, ICOSAHEDRON_FACES, bumpy, subdivided
 
 
 def sphere(levels=3):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes of any fineness, made of NumPy alone: for those who do not have the usual meshes.
+"""Round shapes of any fineness, whose vertices lie regularly.
 
 All return V (n,3) and F (m,3).
 """
