@@ -3,7 +3,7 @@
 
 import numpy as np
 
-_TEXELS = 256  # along a side
+_TEXELS = 256  # along a side, at which overlaps are looked for
 _INSIDE = 1e-4  # how far a UV map may reach out of the unit square
 
 
@@ -12,16 +12,16 @@ def fits_unit_square(uv: np.ndarray) -> bool:
     return bool((uv > -_INSIDE).all() and (uv < 1 + _INSIDE).all())
 
 
-def overlap(uv: np.ndarray, texels: int = _TEXELS) -> float:
+def overlap(uv: np.ndarray) -> float:
     """Return how much of a UV map is covered more than once.
 
-    `uv`: (m,3,2) of triangles in the unit square. `texels`: places along each side at which this is
-    tested. Returns what is covered again, relative to what is covered; 1 if nothing is covered.
+    `uv`: (m,3,2) of triangles in the unit square. Returns what is covered again, relative to what
+    is covered; 1 if nothing is covered.
     """
-    counts = np.zeros((texels, texels), np.int32)
-    places = uv.astype(np.float64) * texels - 0.5  # centers of texels are whole numbers
-    lower = np.ceil(places.min(axis=1)).astype(int).clip(0, texels)
-    upper = np.floor(places.max(axis=1)).astype(int).clip(-1, texels - 1) + 1
+    counts = np.zeros((_TEXELS, _TEXELS), np.int32)
+    places = uv.astype(np.float64) * _TEXELS - 0.5  # centers of texels are whole numbers
+    lower = np.ceil(places.min(axis=1)).astype(int).clip(0, _TEXELS)
+    upper = np.floor(places.max(axis=1)).astype(int).clip(-1, _TEXELS - 1) + 1
     for corners, (left, bottom), (right, top) in zip(places, lower, upper, strict=True):
         if left < right and bottom < top:
             counts[bottom:top, left:right] += _is_inside(corners, left, right, bottom, top)

@@ -6,7 +6,7 @@ undo step, an autosave or a copy of the mesh made during a preview therefore inc
 needed to end the preview, and no Python object has to outlive it.
 """
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -241,13 +241,9 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
     return True
 
 
-def end_all_previews(except_meshes: Collection[bpy.types.Mesh] = ()) -> list[str]:
-    """End the preview on every mesh of the file except some.
-
-    Returns the names of the meshes that had one.
-    """
-    meshes = [mesh for mesh in bpy.data.meshes if mesh not in except_meshes]
-    return [mesh.name for mesh in meshes if end_preview(mesh)]
+def end_all_previews() -> list[str]:
+    """End the preview on every mesh of the file; return the names of those that had one."""
+    return [mesh.name for mesh in list(bpy.data.meshes) if end_preview(mesh)]
 
 
 def _may_be_undone(mesh: bpy.types.Mesh) -> bool:
