@@ -18,7 +18,7 @@ from .carrying import away_from, carried, together
 from .face_step import Target
 from .new_crossings import NewCrossings
 from .open_rims import open_rims
-from .planes import flattening
+from .planes import flat_at_rest, flattening
 from .rims import FREE, rims_and_flats
 from .sides import CLEAR, NO_SIDE, STEADY, sides_of
 
@@ -82,7 +82,7 @@ class Hardening:
     along: FloatArray
     """(n,3) how far they go along with what they are linked to, however crisp they are"""
     rim: FloatArray
-    """(n,) how far they belong to rims between flats, from 0 to 1"""
+    """(n,) how far they belong to rims between flats, or to what was flat at rest, from 0 to 1"""
 
     @cached_property
     def crispness(self):
@@ -225,6 +225,7 @@ def hardening_of(stylization, before=None):
     rims = rims_and_flats(base.graph, stylization.positions, rest.F, *sides[:2])
     rim, plate = slides * np.stack(rims)
     hold = hold_of(rest) * (1.0 - (1.0 - FREE) * rim)
+    rim = np.maximum(rim, slides * flat_at_rest(rest.V, rest.F, base.graph, sides[0]))
     found = _raised(stylization, base, thick, sides, hold, plate, rim)
     firm = np.maximum(thick, plate)
     return replace(found, firm=firm, asked=firm * _crispness_of(stylization.style))

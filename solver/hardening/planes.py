@@ -25,6 +25,9 @@ OF_THICK, SHALLOW = 3.0, (0.06, 0.075)
 """...and times so much where, beside that, the distance is less than the first of the thickness,
 but not beyond the second: a cushion becomes flat, and what is slender keeps its bends. A rim
 between two flats may bulge as much, of its length, however thin the plate is"""
+STRAIGHT = 0.004, 0.008
+"""distance from a plane at rest, the root of its mean square, relative to the diagonal: a side that
+was nearer than the first may bulge as much as a rim: posts of a fence, and what was flat"""
 RIMS = 0.1, 0.15
 """distance from the plane of an open rim, relative to its radius: as `NEAR`"""
 UPRIGHT = 0.01, 0.02
@@ -59,7 +62,8 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim
     thickness : (m,) array
         Of the shape at the triangles, zero where there is none or none that counts.
     rim : (n,) array
-        How far vertices belong to rims between flats, as `rims_and_flats` returns it.
+        How far vertices belong to rims between flats, as `rims_and_flats` returns it, or to what
+        was flat, see `flat_at_rest`.
     rims : as of `open_rims`, optional
     """
     n, is_same = len(U), (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
@@ -98,6 +102,27 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim
         places = np.concatenate([U[at], _FAR * of[:, None]], axis=1)
         _take_along(moves, places, at, is_edge, normals, reach)
     return moves, flat
+
+
+def flat_at_rest(V, F, graph, side):
+    """Return how far vertices (n,) belong to sides that were flat, or as straight as a post.
+
+    `V`: (n,3), rest positions. `F`, `graph`, `side`: as of `flattening`.
+    """
+    count, region = graph.regions((side[graph.one] == side[graph.other]) & (side[graph.one] >= 0))
+    total = np.maximum(np.bincount(region, graph.areas, count), _LEAST)
+    centers = V[F].mean(axis=1)
+    middle = sums_by_group(graph.areas[:, None] * centers, region, count) / total[:, None]
+    away = centers - middle[region]
+    products = (graph.areas[:, None, None] * away[:, :, None] * away[:, None, :]).reshape(-1, 9)
+    spread = (sums_by_group(products, region, count) / total[:, None]).reshape(-1, 3, 3)
+    distance = np.sqrt(np.maximum(np.linalg.eigvalsh(spread)[:, 0], 0.0))
+    share = smoothstep(distance / diagonals(V, F, region, count), *STRAIGHT[::-1])
+    share[np.bincount(region, minlength=count) < FEWEST] = 0.0
+    share[region[side < 0]] = 0.0
+    at_vertices = np.zeros(len(V))
+    np.maximum.at(at_vertices, F.ravel(), np.repeat(share[region], 3))
+    return at_vertices
 
 
 def _of_rims(U, at, rim, facing):

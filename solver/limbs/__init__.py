@@ -13,6 +13,7 @@ from .joined import joined_limbs, placed_limbs
 from .limbs import KnownLimbs, Limbs, no_limbs
 from .of_bones import limbs_of_bones
 from .of_shape import limbs_of_shape
+from .plates import with_plates
 from .shells import without_shells
 from .turns import turns
 
@@ -27,5 +28,6 @@ __all__ = (
     "turns",
     "with_coverings",
     "with_hollows",
+    "with_plates",
     "without_shells",
 )

@@ -39,10 +39,11 @@ MOST_FAULTS = 0.05
 """share of edges with inconsistent triangles, or more than two"""
 FACING = 0.9
 """least cosine between a link and the normal at either end"""
+INEXACTNESS = 0.1
+"""of the nearest vertex: in the middle of a ball, all are equally near"""
 
 _ROUNDS = 12
 _MANY = 3  # points for each chosen one; of fewer, both ways cost more than the second alone
-_INEXACTNESS = 0.1  # of the nearest vertex: in the middle of a ball, all are equally near
 _SETTLED = 0.99  # a ball that shrinks by less has come to its end
 
 
@@ -52,16 +53,34 @@ def thickness_links(V, normals, areas, part, outward):
     `V`: (n,3), rest positions in the unit box. `normals`: (n,3), unit normals, or zero. `areas`:
     (n,). `part`: (n,) int, connected part of each vertex. `outward`: (n,), its `outward_sign`.
     """
-    return links_between(*facing_pairs(V, outward[:, None] * normals, areas, part))
+    normals = outward[:, None] * normals
+    pairs = facing_pairs(V, normals, areas, part)
+    is_linked = np.zeros(int(part.max()) + 1, dtype=bool)
+    is_linked[part[pairs[0]]] = True
+    normals = np.where(is_linked[part][:, None], 0.0, normals)
+    if normals.any():  # in a ball as large as the box, both sides of a thin plate are as near
+        others = facing_pairs(V, normals, areas, part, inexactness=0.0)
+        pairs = map(np.concatenate, zip(pairs, others, strict=True))
+    return links_between(*pairs)
 
 
-def facing_pairs(V, normals, areas, part, count=SAMPLES, most=MOST_POINTS, least=FACING):
+def facing_pairs(
+    V,
+    normals,
+    areas,
+    part,
+    count=SAMPLES,
+    most=MOST_POINTS,
+    least=FACING,
+    inexactness=INEXACTNESS,
+):
     """Return pairs of vertices on opposite sides of a part, and weights of links between them.
 
     `V`: (n,3), rest positions in the unit box. `normals`: (n,3), unit normals away from the side on
     which the balls are, or zero for none. `areas`: (n,). `part`: (n,) int. `count`: int,
     approximate number of vertices to start from. `most`: int, number of vertices that the balls are
-    measured against. `least`: cosine between a link and the normals at both ends. Returns `i`, `j`:
+    measured against. `least`: cosine between a link and the normals at both ends. `inexactness`: of
+    what is nearest, beside its distance. Returns `i`, `j`:
     (k,) int; `weights`: (k,).
     """
     is_asked = normals.any(axis=1)
@@ -70,7 +89,7 @@ def facing_pairs(V, normals, areas, part, count=SAMPLES, most=MOST_POINTS, least
         return points[:0], points[:0], areas[:0]
     points = points[:: -(-len(points) // most)]
     spacing, chosen, area = surface_samples(V, normals, areas, part, is_asked, count)
-    i, j = _opposite(V, normals, part, chosen, points)
+    i, j = _opposite(V, normals, part, chosen, points, inexactness)
     is_facing = facing(V, normals, i, j) > least
     i, j = i[is_facing], j[is_facing]
     share = np.zeros(len(V))
@@ -79,19 +98,19 @@ def facing_pairs(V, normals, areas, part, count=SAMPLES, most=MOST_POINTS, least
     return i, j, STRENGTH * share[i] / np.maximum(distance, spacing[i]) ** 2
 
 
-def _opposite(V, normals, part, chosen, points):
+def _opposite(V, normals, part, chosen, points, inexactness):
     """Return the vertices whose balls end at an opposite side, and those at which they end."""
     place = V.copy()
     place[:, 0] += 10.0 * part  # farther apart than any ball is wide
     end, radius = np.full(len(chosen), -1), np.full(len(chosen), 0.5)
     if len(points) > _MANY * len(chosen):  # a part of the points is enough to approach the end
-        _shrink(place, normals, chosen, chosen, end, radius)
-    _shrink(place, normals, chosen, points, end, radius)
+        _shrink(place, normals, chosen, chosen, end, radius, inexactness)
+    _shrink(place, normals, chosen, points, end, radius, inexactness)
     has_end = end >= 0
     return chosen[has_end], end[has_end]
 
 
-def _shrink(place, normals, chosen, points, end, radius):
+def _shrink(place, normals, chosen, points, end, radius, inexactness):
     """Shrink balls at chosen vertices (c,) until no other point is inside, in place.
 
     end : (c,) int array
@@ -103,7 +122,7 @@ def _shrink(place, normals, chosen, points, end, radius):
     todo = np.arange(len(chosen))
     for _ in range(_ROUNDS):
         center = p[todo] - radius[todo, None] * n[todo]
-        q = points[nearest_of(center, eps=_INEXACTNESS)]
+        q = points[nearest_of(center, eps=inexactness)]
         d = place[q] - p[todo]
         squared, depth = (d * d).sum(axis=1), -(d * n[todo]).sum(axis=1)
         is_other = (q != chosen[todo]) & (depth > 0.0)

@@ -15,7 +15,7 @@ from ..coarse_to_fine.contraction import contract
 from ..contacts.crossings import CrossingTriangles
 from ..contacts.polygons import are_apart
 from ..inputs import real_numbers
-from ..limbs import Limbs, limbs_of_shape, with_coverings, with_hollows, without_shells
+from ..limbs import Limbs, limbs_of_shape, with_coverings, with_hollows, with_plates, without_shells
 from ..limbs.covering import COVERING
 from ..mesh.face_graph import FaceGraph
 from ..mesh.rest_measures import areas_and_normals, triangle_areas_and_normals
@@ -293,6 +293,9 @@ class RestMesh(Value):
         if cavities is not None:
             cavities = cavities.part(~has_none[cavities.vertices[:, 0]])
             found = with_hollows(found, self.V, self.skin, links, cavities, *surface)
+        thickness = np.where(self.box_frames[1], np.inf, self.thickness)
+        of_surface = self.F, self.face_graph, self.skin, self.topology.part
+        found = with_plates(found, self.V, *of_surface, thickness)
         neighbors = self.to_neighbors
         if not len(neighbors):
             return found

@@ -8,7 +8,7 @@ from proxy_shapes import uv_sphere
 from shapes import sheet
 
 from solver import Run, Setup, SolverOptions, Style, Stylization, rest_mesh
-from solver.hardening.planes import flattening
+from solver.hardening.planes import flat_at_rest, flattening
 from solver.mesh.face_graph import FaceGraph
 
 
@@ -83,6 +83,15 @@ def test_the_rim_of_a_plate_becomes_straight_however_thin_it_is():
     assert flattened(V, F, side, thickness=0.05)[1].max() < 0.1
     assert flattened(V, F, side, thickness=0.05, rim=1.0)[1].min() > 0.99
     assert flattened(V, F, side, thickness=0.05, rim=1.0, is_tilted=True)[1].max() < 0.5
+
+
+def test_a_side_that_was_flat_at_rest_loses_a_larger_bulge():
+    """Posts between a floor and a roof that become square bent, as what holds their ends turned."""
+    (V, F, side), (at_rest, _, _) = bulging((0.13, 0.13)), bulging((0.0, 0.13))
+    was_flat = flat_at_rest(at_rest, F, FaceGraph(at_rest, F), side)
+    flat = flattened(V, F, side, rim=was_flat)[1]
+    assert flat[V[:, 0] < 0.49].min() > 0.99
+    assert flat[V[:, 0] > 0.51].max() < 0.5
 
 
 def test_a_side_without_a_plane_follows_its_edges():
