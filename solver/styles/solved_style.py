@@ -44,8 +44,6 @@ class SolvedStyle(Value):
     """(n,) relative to the details at rest; 1 at pins"""
     is_drawn: BoolArray
     """(n,) bool, where normals are drawn to the form"""
-    in_limb: FloatArray
-    """(n,) share of each vertex in limbs, from 0 to 1"""
 
     def with_crispness(self, crispness: ArrayLike, setup: Setup) -> "SolvedStyle | None":
         """Return the style with another crispness, None if that is 0 at other vertices."""
@@ -98,7 +96,7 @@ def solved_style(
     own = orientation
     if keep_rotation and not forms:
         own = _along_boxes(orientation, rest.box_frames[0])
-    Q, in_limb = _along_limbs(own, limbs, forms, form_of, setup)
+    Q = _along_limbs(own, limbs, forms, form_of, setup)
     if own is not orientation:
         Q = np.where(rest.box_frames[1][:, None, None], own, Q)
     crispness = _at_free(style.crispness, "crispness", setup, at_pins=0.0)
@@ -108,7 +106,6 @@ def solved_style(
         np.where(is_drawn, np.minimum(crispness, 1.0), 0.0),
         _at_free(style.detail_strength, "detail_strength", setup, at_pins=1.0),
         is_drawn,
-        in_limb,
     )
 
 
@@ -146,10 +143,10 @@ def _numbers(of_input, name, count, rest):
 
 
 def _along_limbs(Q, limbs, forms, form_of, setup):
-    """Return the orientations (n,3,3) that limbs turn with them, or Q as it is, and shares (n,)."""
+    """Return the orientations (n,3,3) that limbs turn with them, or Q as it is."""
     rest = setup.rest
     if not rest.options.keep_pose:
-        return Q, np.zeros(len(rest.V))
+        return Q
     if limbs is None:
         found = rest.limbs
     else:
@@ -157,12 +154,11 @@ def _along_limbs(Q, limbs, forms, form_of, setup):
         if not is_known.all():
             found = rest.limbs.replaced(is_known, found)
     if not len(found):
-        return Q, np.zeros(len(rest.V))
+        return Q
     G = turns(found, Q, forms, form_of)
     for mirror in setup.mirrors:
         mirror.impose_rotations(G)
-    is_limb = found.directions.any(axis=1)  # what is hollow is none
-    return Q @ G, np.minimum(found.shares @ is_limb, 1.0)
+    return Q @ G
 
 
 def _at_solved(limbs, rest):
