@@ -27,13 +27,13 @@ from ..aliases import FloatArray, IntArray
 from ..proxy.links import no_links
 from ..proxy.samples import extents
 from ..proxy.sheets import is_ground
-from .crossings import DEPTH, crossings
+from .crossings import crossings
 from .gaps import Gaps
 from .pairs import links_against, merged, mirrored
 from .push import heights, pushed
 from .riding import riding
 from .shown import shown
-from .where_crossed import are_where_parts_crossed
+from .where_crossed import TOUCHING, are_where_parts_crossed, are_where_parts_touched
 
 ROUNDS = 4
 TRIES = 2
@@ -57,9 +57,6 @@ SAMPLE = 500
 FIRST = 20
 """share of the cards that are looked at first: of those of one figure, it takes one to have all
 ride"""
-
-TOUCHING = 10.0 * DEPTH
-"""between corners of a card and what it stands on"""
 
 
 @dataclass(frozen=True)
@@ -123,7 +120,7 @@ class KeepApart:
             self._crossing = self._pairs_after(self._crossing, before, U)
         pairs = self._crossing
         pairs = pairs[~np.isin(pairs, self._at_end).all(axis=1)]
-        pairs = self._amiss(pairs)
+        pairs = self._amiss(pairs, U)
         if self._may_press:
             pairs = pairs[~self._are_of_two_parts(pairs)]
         self._found = pairs
@@ -240,7 +237,7 @@ class KeepApart:
             stylization = stylization.with_riding(riding(self._rest, is_carried))
             U = stylization.positions
             with_cards = self._with_cards(U, cards)
-        pairs = self._amiss(np.concatenate([self._crossing, with_cards]))
+        pairs = self._amiss(np.concatenate([self._crossing, with_cards]), U)
         pairs = pairs[shown(U, self._shown, pairs)]
         crossing = self._triangles(pairs)
         self.crossings = len(np.unique(crossing))
@@ -250,9 +247,10 @@ class KeepApart:
         self.vertices = np.unique(self._rest.triangles[crossing])
         return stylization
 
-    def _amiss(self, pairs):
-        """Return those of pairs (k,2) that are not where parts crossed, nor of one fold."""
+    def _amiss(self, pairs, U):
+        """Return those of pairs (k,2) that are not where parts crossed or touch, nor of a fold."""
         pairs = pairs[~are_where_parts_crossed(self._rest, pairs)]
+        pairs = pairs[~are_where_parts_touched(self._rest, U, pairs)]
         apart = self._rest.polygons_apart if len(pairs) else None
         return pairs if apart is None else pairs[apart(pairs)]
 

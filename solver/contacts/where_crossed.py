@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where parts may come to cross: beside where they did at rest."""
+"""Where parts may come to cross: where they touch, and beside where they crossed at rest."""
 
 import numpy as np
 from scipy.spatial import KDTree
+
+from ..proxy.closest_point import closest_points
+from .crossings import DEPTH
 
 BESIDE = 0.03
 """of the size: how far from where two parts cross at rest they may come to cross,..."""
 LONG = 0.1
 """...if one has triangles with longer edges there"""
+TOUCHING, SHALLOW = 10.0 * DEPTH, 0.003
+"""in the unit box: what is no farther apart at rest may press into each other by so much"""
 
 
 def are_where_parts_crossed(rest, pairs):
@@ -37,3 +42,39 @@ def are_where_parts_crossed(rest, pairs):
     is_beside[corners] = KDTree(V[crossed]).query(V[corners])[0] < BESIDE
     are_all[found] = np.any(is_beside[F], axis=1)[pairs[found]].all(axis=1)
     return are_all
+
+
+def are_where_parts_touched(rest, U, pairs):
+    """Return which pairs (k,2) are of two parts that touched there, and hardly press in.
+
+    `pairs`: of the triangles that are shown of a RestMesh, which cross at positions U (n,3). A
+    candle on a cake would dent it, if not even this was allowed.
+    """
+    F, part = rest.shown[pairs], rest.topology.part
+    found = np.flatnonzero(part[F[:, 0, 0]] != part[F[:, 1, 0]])
+    both = (F[found], F[found, ::-1])
+    depth = [_depths(U[triangles]) for triangles in both]
+    found = found[np.minimum(*depth) < SHALLOW]
+    distance = [_distances(rest.V[triangles]) for triangles in (F[found], F[found, ::-1])]
+    are_all = np.zeros(len(pairs), dtype=bool)
+    touching = np.unique(pairs[found[np.minimum(*distance) < TOUCHING]])
+    are_all[found] = np.isin(pairs[found], touching).any(axis=1)  # and what is beside it
+    return are_all
+
+
+def _depths(corners):
+    """Return how far (k,) the first of two triangles each, (k,2,3,3), reaches through the other."""
+    first, other = corners.swapaxes(0, 1)
+    normal = np.cross(other[:, 1] - other[:, 0], other[:, 2] - other[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    height = np.einsum("kcx,kx->kc", first - other[:, :1], normal)
+    return np.minimum(height.max(axis=1), -height.min(axis=1))
+
+
+def _distances(corners):
+    """Return the least distance (k,) of corners of the first of two triangles each to the other."""
+    first, other = corners.swapaxes(0, 1)
+    points, triangles = first.reshape(-1, 3), np.repeat(other, 3, axis=0)
+    weights = closest_points(points, *triangles.swapaxes(0, 1))
+    away = np.einsum("kc,kcx->kx", weights, triangles) - points
+    return np.linalg.norm(away, axis=1).reshape(-1, 3).min(axis=1)

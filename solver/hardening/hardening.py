@@ -14,7 +14,7 @@ from ..proxy.samples import extents
 from ..rotation_fit import fit_rotations, orthonormalize
 from .base import base_of
 from .borders import straightening
-from .carrying import away_from, carried, together
+from .carrying import away_from, carried, giving_way, together
 from .face_step import Target
 from .new_crossings import NewCrossings
 from .open_rims import open_rims
@@ -51,6 +51,8 @@ FLAT = 0.5, 0.9
 """crispness from which on what is nearly flat begins to go to its plane, and is there, wholly"""
 TRIES, GROWING = 6, 1.5
 """times that what would cross goes as one, with how much more around it each time"""
+LED = 2
+"""first of them, in which the heavier of two parts stays as flat"""
 _POINT = 1e-6  # extent in the unit box; what has none is held all the same
 _ORTHONORMALIZATIONS = 4
 
@@ -152,13 +154,23 @@ class Hardening:
             return found
         crossings = NewCrossings(before, X, F, is_moved, rest.faces, rest.topology.part, apart)
         known = crossing = crossings.at(X)
+        part = rest.topology.part
+        area = np.bincount(part, rest.areas)
+        stuck = np.empty((0, 2), np.intp)
         for number in range(TRIES):
             if not len(crossing):
                 break
-            share = np.minimum(share, away_from(before, F[crossing], GROWING**number))
-            as_one = together(
-                before, F[known].reshape(-1, 6), X - before, rest.topology.part, share < free
+            if number >= LED:
+                stuck = np.concatenate([stuck, part[F[crossing, 0]].reshape(-1, 2)])
+            pairs = known.reshape(-1, 2)
+            gives_way = giving_way(part[F[pairs, 0]], area, stuck)
+            is_led = gives_way.any(axis=1)
+            of_led, others = (
+                away_from(before, F[pairs[x]], GROWING**number) for x in (is_led, ~is_led)
             )
+            of_led[np.isin(part, part[F[pairs[gives_way[:, ::-1]], 0]])] = 1.0
+            share = np.minimum(share, np.minimum(of_led, others))
+            as_one = together(before, F, pairs, X - before, part, share < free, gives_way)
             along = share[:, None] * of_parts + (free - share)[:, None] * as_one
             found = replace(found, flat=share * flat, moves=share[:, None] * moves, along=along)
             crossing = crossings.at(found.positions(U))

@@ -219,3 +219,22 @@ def test_a_stick_that_goes_through_a_ball_becomes_square():
     V, F = joined(stick, (0.2 * ball + [0.0, 0.0, 1.2], faces))
     far = np.linalg.norm(stylize(V, F).positions[16:32, :2], axis=1)
     assert far.max() / far.min() > 1.25
+
+
+def lathed(low, high, radius, around):
+    """Return a cylinder whose lids are fans of triangles."""
+    V, F = revolved([(radius, low), (radius, high)], around)
+    i, n = np.arange(around), len(V)
+    j = (i + 1) % around
+    bottom = np.stack([j, i, np.full(around, n)], axis=1)
+    top = np.stack([around + i, around + j, np.full(around, n + 1)], axis=1)
+    return np.vstack([V, [0, 0, low], [0, 0, high]]), np.concatenate([F, bottom, top])
+
+
+def test_what_stands_on_a_lid_does_not_dent_it():
+    cake, candle = lathed(0.0, 0.37, 0.47, 48), lathed(0.37, 0.67, 0.035, 16)
+    ways = ([0.2, 0, 0], [0, 0.2, 0], [-0.2, 0, 0], [0, -0.2, 0])
+    V, F = joined(cake, *((candle[0] + way, candle[1]) for way in ways))
+    U = stylize(V, F, 0.4, proxy=ProxyOptions(), keep_rotation=True, crispness=0.9).positions
+    top = U[: len(cake[0])][cake[0][:, 2] > 0.3]
+    assert np.ptp(top[:, 2]) < 1e-3
