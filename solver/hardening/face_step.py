@@ -28,7 +28,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from ..algebra import columns, dot
+from ..algebra import blocks, by_blocks, columns, dot
 from ..aliases import BoolArray, FloatArray
 from ..global_step.motion import Motion
 from ..limbs.turns import smallest_turns
@@ -87,41 +87,46 @@ class FaceStep:
         self._free = np.flatnonzero(target.is_free)
         flatness = FLATNESS + target.slides[rest.F].min(axis=1) * (OF_PLATES - FLATNESS)
         self._flatness = np.where(target.is_free, 0.0, flatness)
-        edges = self._flat_edges()
-        self._begin_turning(edges)
+        traces = self._begin_turning(self._flat_edges())
         skin, whole = (m.matrix(m.laplacian) for m in (rest.skin, rest.matrices))
         self._whole = whole
-        self._rest_terms = 1.5 * self._sums_over_faces(
-            (1.0 - self._flatness) * np.einsum("mkj,mkj->m", edges, self._corners.pulls(edges))
-        ) + 1.5 * rest.topology.sum_parts((rest.V * ((whole - skin) @ rest.V)).sum(axis=1))
+        self._rest_terms = 1.5 * self._sums_over_faces(traces) + 1.5 * rest.topology.sum_parts(
+            (rest.V * ((whole - skin) @ rest.V)).sum(axis=1)
+        )
         self._begin_flatness()
         self._begin_sliding()
 
     def _flat_edges(self):
         """Return the corners (m,3,3) that triangles have at rest: flat but for their details."""
-        target, F = self._target, self._rest.F
-        corners, up = self._rest.V[F], target.base.normals[:, None]
-        heights = target.heights[F] - np.einsum("mkj,mlj->mk", corners, up)
-        corners = corners + heights[..., None] * up
+        target, V, F = self._target, self._rest.V, self._rest.F
+
+        def flat(F, normals):
+            corners, up = V[F], normals[:, None]
+            heights = target.heights[F] - np.einsum("mkj,mlj->mk", corners, up)
+            return corners + heights[..., None] * up
+
+        corners = by_blocks(flat, F, target.base.normals)
         corners[self._free] = target.soft[F[self._free]]
         return corners
 
     def _begin_turning(self, edges):
-        """Take what the angles do: tr(R_f S_f) = x cos + y sin + const.
+        """Take what the angles do: tr(R_f S_f) = x cos + y sin + const; return tr S_f (m,).
 
         ``_angles`` (2m,3n) takes positions to x and y, and its transpose a cosine and a sine to
         pulls at the vertices. What the fixed part of R_f pulls with is ``_steady`` (n,3).
         """
         rest, F = self._rest, self._rest.F
         m, n = len(F), len(rest.V)
-        pulls = (3.0 * (1.0 - self._flatness))[:, None, None] * self._corners.pulls(edges)
-        along, *turning = self._parts()
+        share, pulls = 1.0 - self._flatness, self._corners.pulls(edges)
+        traces = share * np.einsum("mkj,mkj->m", edges, pulls)
+        pulls *= (3.0 * share)[:, None, None]
         self._turn, self._of_vertices = np.repeat([[1.0], [0.0]], m, axis=1), None
         self._free_R = np.repeat(np.eye(3)[None], len(self._free), axis=0)
-        self._steady = self._corners.sums(pulls @ along.swapaxes(1, 2))
-        entries = np.empty((2, m, 3, 3))
-        for into, part in zip(entries, turning, strict=True):
-            np.matmul(pulls, part.swapaxes(1, 2), out=into)
+        steady, entries = np.empty_like(pulls), np.empty((2, m, 3, 3))
+        for rows in blocks(m):
+            for into, part in zip((steady, *entries), self._parts(rows), strict=True):
+                np.matmul(pulls[rows], part.swapaxes(1, 2), out=into[rows])
+        self._steady = self._corners.sums(steady)
         columns = np.empty((2, m, 3, 3), np.int32)
         columns[:] = 3 * F[:, :, None] + np.arange(3, dtype=np.int32)
         ends = np.arange(0, 18 * m + 1, 9, dtype=np.int32)
@@ -131,8 +136,9 @@ class FaceStep:
         free = pulls[self._free].swapaxes(1, 2).ravel()
         self._free_pulls = sp.csr_matrix((free, at), shape=(3 * len(self._free), n))
         self._add_links()
+        return traces
 
-    def _parts(self, faces=slice(None)):
+    def _parts(self, faces):
         """Return the three (k,3,3) that the R_f of some triangles are sums of.
 
         As it is; times the cosine; times the sine. They are found anew, as they are rarely used and
@@ -157,9 +163,11 @@ class FaceStep:
     @property
     def of_faces(self):
         """(m,3,3) rotations R_f of the triangles."""
-        along, across, turned = self._parts()
-        cosine, sine = self._turn[:, :, None, None]
-        R = along + cosine * across + sine * turned
+        R = np.empty((len(self._flatness), 3, 3))
+        for rows in blocks(len(R)):
+            along, across, turned = self._parts(rows)
+            cosine, sine = self._turn[:, rows, None, None]
+            R[rows] = along + cosine * across + sine * turned
         R[self._free] = self._free_R
         return R
 
@@ -171,11 +179,13 @@ class FaceStep:
         return self._of_vertices
 
     def _found_at_vertices(self):
-        R, F = self.of_faces, self._rest.F
-        near = np.empty((len(self._rest.V), 3, 3))
-        near[F] = R[:, None]
-        transposed = np.repeat(R.swapaxes(1, 2).reshape(-1, 1, 9), 3, axis=1)
-        return fit_rotations(self._corners.sums(transposed).reshape(-1, 3, 3), near)
+        R, corners = self.of_faces, self._corners
+        near, sums = R[corners.last_around()], corners.sums_around(R.reshape(-1, 9))
+
+        def fitted(sums, near):
+            return fit_rotations(sums.reshape(-1, 3, 3).swapaxes(1, 2).copy(), near)
+
+        return by_blocks(fitted, sums, near)
 
     def start_from(self, R):
         """Begin with rotations (n,3,3) of the vertices; only triangles without a side remember."""
@@ -276,8 +286,8 @@ class FaceStep:
             return
         t, areas = target.directions, target.base.graph.areas[:, None, None]
         along = np.where(target.is_free[:, None, None], 0.0, np.eye(3) - t[:, :, None] * t[:, None])
-        weight = self._corners.sums(np.repeat(areas, 3, axis=1))[:, :, None]
-        sums = self._corners.sums(np.repeat((areas * along).reshape(-1, 1, 9), 3, axis=1))
+        weight = self._corners.sums_around(areas[:, 0])[:, :, None]
+        sums = self._corners.sums_around((areas * along).reshape(-1, 9))
         means = sums.reshape(-1, 3, 3) / np.where(weight > 0.0, weight, 1.0)
         self._free_ways = target.slides[:, None, None] * means
 
