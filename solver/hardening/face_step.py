@@ -239,13 +239,22 @@ class FaceStep:
 
         What is cut off a rounded side is not all put on at its edges, which resist.
         """
-        rest = self._rest
-        soft, hard = (columns(area_vectors(x, rest.F)) for x in (self._target.soft, U))
-        moved = sum((U - self._target.soft).T.take(corner, axis=1) for corner in rest.F.T) / 3.0
-        lost = self._sums_over_faces(-0.25 * dot(*(soft + hard), *moved))
-        area = self._sums_over_faces(0.5 * np.sqrt(dot(*soft, *soft)))
+        rest, soft = self._rest, self._soft_areas
+        hard, moved = area_vectors(U, rest.F), U - self._target.soft
+
+        def lost_by(F, soft, hard):
+            moves = moved[F[:, 0]] + moved[F[:, 1]] + moved[F[:, 2]]
+            return -0.25 * dot(*columns(soft + hard), *columns(moves / 3.0))
+
+        lost = self._sums_over_faces(by_blocks(lost_by, rest.F, soft, hard))
+        area = self._sums_over_faces(0.5 * np.sqrt(dot(*columns(soft), *columns(soft))))
         outward = GAIN * lost / np.where(area > 0.0, area, 1.0)
         self.hold_outward(outward[rest.topology.component])
+
+    @cached_property
+    def _soft_areas(self):
+        """(m,3) normals of the triangles of the soft shape, as long as twice the area."""
+        return area_vectors(self._target.soft, self._rest.F)
 
     def hold_outward(self, outward):
         """Hold the sides farther out by so much at the vertices (n,)."""

@@ -41,11 +41,12 @@ AGREEING = 0.4, 0.7
 cancel each other around an eye; across an edge of 90 degrees it is the second"""
 ROUNDS = 4
 """in which edges become sharp again"""
+LARGE = 100_000
+"""vertices of a part: each round would take all of the iterations that it has at most"""
 
 _TOLERANCE = 1e-2  # error of the normals, roughly
 _MOST_ITERATIONS = 60
-_LARGE = 200_000  # triangles: of more, further rounds are solved...
-_FURTHER = 1e-2  # ...to this share of the error of the first, in its square
+_FURTHER = 1e-2  # share of the error of the first solve, squared, that is no longer seen
 _LEAST_AREA = 1e-12
 
 
@@ -62,27 +63,35 @@ def radii(share, whole, thickness, part_sizes, is_alone):
     return np.where(is_detail, size, np.minimum(size, of_limb))
 
 
-def smoothed(graph, radius, coupling, outward: FloatArray | float = 1.0, rounds=ROUNDS):
+def smoothed(
+    graph,
+    radius,
+    coupling,
+    outward: FloatArray | float = 1.0,
+    rounds=ROUNDS,
+    largest_part=0,
+):
     """Return the normals (m,3) of triangles without their details, shorter where they disagree.
 
     `graph`: FaceGraph. `radius`: (m,), see `radii`. `coupling`: (k,), of the pairs of triangles of
     the graph, from 0 across the sharp creases of flat sides, where nothing is averaged, to 1.
     `outward`: (m,), optional, -1 for triangles of parts that are inside out. `rounds`: int, in
-    which edges become sharp again.
+    which edges become sharp again. `largest_part`: int, its vertices: beyond `LARGE`, these are
+    solved less exactly. Small parts need them exact: some are averaged as a whole.
     """
     conductance = coupling * graph.length / graph.distance
     conductance *= 0.125 * (radius[graph.one] ** 2 + radius[graph.other] ** 2)
     between = 0.5 * (radius[graph.one] + radius[graph.other])
     found, least = _diffused(graph, conductance, graph.normals)
+    goal = _FURTHER * least if largest_part > LARGE else 0.0
     length = np.linalg.norm(found, axis=1)
     length = np.minimum(length[graph.one], length[graph.other])
     is_edge = np.clip((length - AGREEING[0]) / (AGREEING[1] - AGREEING[0]), 0.0, 1.0)
     for _ in range(rounds):
         guide = unit(found)
-        turn = np.linalg.norm(guide[graph.one] - guide[graph.other], axis=1)
+        turn = graph.distances(guide)
         x = turn * between / graph.distance / EDGE * is_edge
         x *= graph.is_convex(np.multiply(guide.T, outward).T)
-        goal = _FURTHER * least if len(graph.areas) > _LARGE else 0.0
         found, _ = _diffused(graph, conductance / (1.0 + x * x), found, goal)
     return np.where(graph.areas[:, None] > 0.0, found, 0.0)
 
@@ -126,7 +135,7 @@ def _solved(A, b, near, goal):
     z = scale * residual
     direction, rate = z.copy(), float((residual * z).sum())
     goal = max(goal, _TOLERANCE**2 * max(rate, 1e-300))
-    image, product = np.empty((2, *b.shape), np.float32)  # new arrays would be new pages
+    image, product = np.empty_like(b), np.empty_like(b)  # new ones each time are new pages
     for _ in range(_MOST_ITERATIONS):
         if rate <= goal:
             break
