@@ -122,19 +122,23 @@ class FaceStep:
         pulls *= (3.0 * share)[:, None, None]
         self._turn, self._of_vertices = np.repeat([[1.0], [0.0]], m, axis=1), None
         self._free_R = np.repeat(np.eye(3)[None], len(self._free), axis=0)
-        steady, entries = np.empty_like(pulls), np.empty((2, m, 3, 3))
-        for rows in blocks(m):
-            for into, part in zip((steady, *entries), self._parts(rows), strict=True):
-                np.matmul(pulls[rows], part.swapaxes(1, 2), out=into[rows])
+        sided = np.flatnonzero(~self._target.is_free)
+        steady, entries = np.zeros_like(pulls), np.empty((2, len(sided), 3, 3))
+        for block in blocks(len(sided)):
+            some = pulls[sided[block]]
+            along, *turning = self._parts(sided[block])
+            steady[sided[block]] = some @ along.swapaxes(1, 2)
+            for into, part in zip(entries, turning, strict=True):
+                np.matmul(some, part.swapaxes(1, 2), out=into[block])
         self._steady = self._corners.sums(steady)
-        columns = np.empty((2, m, 3, 3), np.int32)
-        columns[:] = 3 * F[:, :, None] + np.arange(3, dtype=np.int32)
-        ends = np.arange(0, 18 * m + 1, 9, dtype=np.int32)
+        columns = np.empty(entries.shape, np.int32)
+        columns[:] = 3 * F[sided, :, None] + np.arange(3, dtype=np.int32)
+        ends = np.append(0, np.cumsum(np.tile(~self._target.is_free, 2), dtype=np.int32) * 9)
         self._angles = sp.csr_matrix((entries.ravel(), columns.ravel(), ends), shape=(2 * m, 3 * n))
-        rows = np.repeat(np.arange(3 * len(self._free)), 3)
-        at = rows, np.repeat(F[self._free], 3, axis=0).ravel()
-        free = pulls[self._free].swapaxes(1, 2).ravel()
-        self._free_pulls = sp.csr_matrix((free, at), shape=(3 * len(self._free), n))
+        at, count = np.repeat(F[self._free], 3, axis=0).ravel(), 3 * len(self._free)
+        free = pulls[self._free].swapaxes(1, 2).ravel(), at, np.arange(0, 3 * count + 1, 3)
+        self._free_pulls = sp.csr_matrix(free, shape=(count, n))
+        self._free_pulls.sum_duplicates()
         self._add_links()
         return traces
 
@@ -190,7 +194,7 @@ class FaceStep:
     def start_from(self, R):
         """Begin with rotations (n,3,3) of the vertices; only triangles without a side remember."""
         means = R[self._rest.F[self._free]].sum(axis=1)
-        self._free_R, self._of_vertices = svd_rotations(means.swapaxes(1, 2)), None
+        self._free_R, self._of_vertices = by_blocks(svd_rotations, means.swapaxes(1, 2)), None
 
     def go_on_with(self, rest, target):
         """Return one with another Target, from the same rotations and held as far out."""
@@ -218,7 +222,7 @@ class FaceStep:
         if len(self._free):
             S = (self._free_pulls @ U).reshape(-1, 3, 3)
             S[self._of_free] += linked[self._is_free]
-            self._free_R = fit_rotations(S, self._free_R)
+            self._free_R = by_blocks(fit_rotations, S, self._free_R)
             gains[self._free] = np.einsum("mij,mji->m", self._free_R, S)
             turned += self._free_pulls.T @ self._free_R.swapaxes(1, 2).reshape(-1, 3)
         cosine, sine = self._turn[:, links.faces, None, None]
