@@ -54,6 +54,26 @@ def sums_by_group(vectors, group, count=0):
     return np.stack([np.bincount(group, x, count) for x in vectors.T], axis=1)
 
 
+def by_blocks(function, *arrays):
+    """Return what a function makes of arrays (n,...), row by row, for so many rows at once.
+
+    What it computes on the way stays in the cache, and takes no new pages of memory.
+    """
+    first, *others = blocks(len(arrays[0])) or [slice(0)]
+    result = function(*(values[first] for values in arrays))
+    if others:
+        result, begin = np.empty((len(arrays[0]), *result.shape[1:]), result.dtype), result
+        result[first] = begin
+    for part in others:
+        result[part] = function(*(values[part] for values in arrays))
+    return result
+
+
+def blocks(count):
+    """Return slices of so many rows that stay in the cache."""
+    return [slice(begin, begin + BLOCK) for begin in range(0, count, BLOCK)]
+
+
 def by_columns(values):
     """Return a copy of numbers (n,), vectors (n,w) or matrices that lies as `from_columns` says."""
     return np.array(columns(values), order="C").T.reshape(values.shape)

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from .algebra import (
-    BLOCK,
     adjugate,
     axial,
+    blocks,
     columns,
     determinant,
     from_columns,
@@ -86,8 +86,7 @@ def orthonormalize(R, steps=1):
     take NumPy.
     """
     result = np.empty_like(R)
-    for begin in range(0, len(R), BLOCK):
-        part = slice(begin, begin + BLOCK)
+    for part in blocks(len(R)):
         entries = R[part].T.reshape(9, -1)  # of the transposes, which are turned back below
         for _ in range(steps):
             entries = nearer_to_orthogonal(*entries)

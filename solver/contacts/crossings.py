@@ -101,8 +101,10 @@ class Watched:
         pairs = used[np.concatenate([np.empty((2, 0), np.intp), *map(np.stack, found)], axis=1)]
         pairs = pairs[:, is_moved[pairs].any(axis=0)]
         self._counts = counts
-        self._used, place = np.unique(pairs, return_inverse=True)
-        self._F, self._pairs = F[self._used], place.reshape(2, -1)
+        is_used = np.zeros(len(F), dtype=bool)
+        is_used[pairs] = True
+        self._used = np.flatnonzero(is_used)
+        self._F, self._pairs = F[self._used], (np.cumsum(is_used) - 1)[pairs]
         self._V, self._is_crossing = None, np.zeros(self._pairs.shape[1], dtype=bool)
 
     def crossings(self, V):

@@ -6,18 +6,18 @@ triangle from its normal to that one. What is left of the surface are the height
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
-from ..algebra import columns, dot
+from ..algebra import by_blocks, columns, dot
 from ..aliases import FloatArray
 from ..limbs.turns import smallest_turns
 from ..mesh.face_graph import FaceGraph
 from ..mesh.rest_measures import triangle_areas_and_normals
 from ..surface.details import at_vertices, unit
 from ..surface.rest import RestMesh
-from .corners import Corners
+from .corners import Corners, pulls
 from .linked_faces import LinkedFaces
 
 TILTED = 0.99
@@ -77,7 +77,13 @@ def _integrated(setup, corners, at_rest, normals):
     skin = rest.skin.matrix(rest.skin.laplacian)
     of_links = rest.matrices.matrix(rest.matrices.laplacian) @ B - skin @ B  # they do not turn
     for _ in range(_STEPS):
-        turned = smallest_turns(now, normals) @ corners.pulls(B[rest.F]).swapaxes(1, 2)
-        B = setup.global_step.positions(corners.sums(turned.swapaxes(1, 2)) + of_links, B)
+        turned = partial(_turned_pulls, B)
+        sums = corners.sums(by_blocks(turned, now, normals, corners.cotangents, rest.F))
+        B = setup.global_step.positions(sums + of_links, B)
         now = triangle_areas_and_normals(B, rest.F)[1]
     return B
+
+
+def _turned_pulls(B, now, normals, C, F):
+    """Return the pulls (k,3,3) of triangles turned from normals (k,3) to others."""
+    return (smallest_turns(now, normals) @ pulls(C, B[F]).swapaxes(1, 2)).swapaxes(1, 2)

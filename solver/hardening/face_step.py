@@ -28,7 +28,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from ..algebra import columns, dot
+from ..algebra import blocks, by_blocks, columns, dot
 from ..aliases import BoolArray, FloatArray
 from ..global_step.motion import Motion
 from ..limbs.turns import smallest_turns
@@ -87,52 +87,62 @@ class FaceStep:
         self._free = np.flatnonzero(target.is_free)
         flatness = FLATNESS + target.slides[rest.F].min(axis=1) * (OF_PLATES - FLATNESS)
         self._flatness = np.where(target.is_free, 0.0, flatness)
-        edges = self._flat_edges()
-        self._begin_turning(edges)
+        traces = self._begin_turning(self._flat_edges())
         skin, whole = (m.matrix(m.laplacian) for m in (rest.skin, rest.matrices))
         self._whole = whole
-        self._rest_terms = 1.5 * self._sums_over_faces(
-            (1.0 - self._flatness) * np.einsum("mkj,mkj->m", edges, self._corners.pulls(edges))
-        ) + 1.5 * rest.topology.sum_parts((rest.V * ((whole - skin) @ rest.V)).sum(axis=1))
+        self._rest_terms = 1.5 * self._sums_over_faces(traces) + 1.5 * rest.topology.sum_parts(
+            (rest.V * ((whole - skin) @ rest.V)).sum(axis=1)
+        )
         self._begin_flatness()
         self._begin_sliding()
 
     def _flat_edges(self):
         """Return the corners (m,3,3) that triangles have at rest: flat but for their details."""
-        target, F = self._target, self._rest.F
-        corners, up = self._rest.V[F], target.base.normals[:, None]
-        heights = target.heights[F] - np.einsum("mkj,mlj->mk", corners, up)
-        corners = corners + heights[..., None] * up
+        target, V, F = self._target, self._rest.V, self._rest.F
+
+        def flat(F, normals):
+            corners, up = V[F], normals[:, None]
+            heights = target.heights[F] - np.einsum("mkj,mlj->mk", corners, up)
+            return corners + heights[..., None] * up
+
+        corners = by_blocks(flat, F, target.base.normals)
         corners[self._free] = target.soft[F[self._free]]
         return corners
 
     def _begin_turning(self, edges):
-        """Take what the angles do: tr(R_f S_f) = x cos + y sin + const.
+        """Take what the angles do: tr(R_f S_f) = x cos + y sin + const; return tr S_f (m,).
 
         ``_angles`` (2m,3n) takes positions to x and y, and its transpose a cosine and a sine to
         pulls at the vertices. What the fixed part of R_f pulls with is ``_steady`` (n,3).
         """
         rest, F = self._rest, self._rest.F
         m, n = len(F), len(rest.V)
-        pulls = (3.0 * (1.0 - self._flatness))[:, None, None] * self._corners.pulls(edges)
-        along, *turning = self._parts()
+        share, pulls = 1.0 - self._flatness, self._corners.pulls(edges)
+        traces = share * np.einsum("mkj,mkj->m", edges, pulls)
+        pulls *= (3.0 * share)[:, None, None]
         self._turn, self._of_vertices = np.repeat([[1.0], [0.0]], m, axis=1), None
         self._free_R = np.repeat(np.eye(3)[None], len(self._free), axis=0)
-        self._steady = self._corners.sums(pulls @ along.swapaxes(1, 2))
-        entries = np.empty((2, m, 3, 3))
-        for into, part in zip(entries, turning, strict=True):
-            np.matmul(pulls, part.swapaxes(1, 2), out=into)
-        columns = np.empty((2, m, 3, 3), np.int32)
-        columns[:] = 3 * F[:, :, None] + np.arange(3, dtype=np.int32)
-        ends = np.arange(0, 18 * m + 1, 9, dtype=np.int32)
+        sided = np.flatnonzero(~self._target.is_free)
+        steady, entries = np.zeros_like(pulls), np.empty((2, len(sided), 3, 3))
+        for block in blocks(len(sided)):
+            some = pulls[sided[block]]
+            along, *turning = self._parts(sided[block])
+            steady[sided[block]] = some @ along.swapaxes(1, 2)
+            for into, part in zip(entries, turning, strict=True):
+                np.matmul(some, part.swapaxes(1, 2), out=into[block])
+        self._steady = self._corners.sums(steady)
+        columns = np.empty(entries.shape, np.int32)
+        columns[:] = 3 * F[sided, :, None] + np.arange(3, dtype=np.int32)
+        ends = np.append(0, np.cumsum(np.tile(~self._target.is_free, 2), dtype=np.int32) * 9)
         self._angles = sp.csr_matrix((entries.ravel(), columns.ravel(), ends), shape=(2 * m, 3 * n))
-        rows = np.repeat(np.arange(3 * len(self._free)), 3)
-        at = rows, np.repeat(F[self._free], 3, axis=0).ravel()
-        free = pulls[self._free].swapaxes(1, 2).ravel()
-        self._free_pulls = sp.csr_matrix((free, at), shape=(3 * len(self._free), n))
+        at, count = np.repeat(F[self._free], 3, axis=0).ravel(), 3 * len(self._free)
+        free = pulls[self._free].swapaxes(1, 2).ravel(), at, np.arange(0, 3 * count + 1, 3)
+        self._free_pulls = sp.csr_matrix(free, shape=(count, n))
+        self._free_pulls.sum_duplicates()
         self._add_links()
+        return traces
 
-    def _parts(self, faces=slice(None)):
+    def _parts(self, faces):
         """Return the three (k,3,3) that the R_f of some triangles are sums of.
 
         As it is; times the cosine; times the sine. They are found anew, as they are rarely used and
@@ -157,9 +167,11 @@ class FaceStep:
     @property
     def of_faces(self):
         """(m,3,3) rotations R_f of the triangles."""
-        along, across, turned = self._parts()
-        cosine, sine = self._turn[:, :, None, None]
-        R = along + cosine * across + sine * turned
+        R = np.empty((len(self._flatness), 3, 3))
+        for rows in blocks(len(R)):
+            along, across, turned = self._parts(rows)
+            cosine, sine = self._turn[:, rows, None, None]
+            R[rows] = along + cosine * across + sine * turned
         R[self._free] = self._free_R
         return R
 
@@ -171,16 +183,18 @@ class FaceStep:
         return self._of_vertices
 
     def _found_at_vertices(self):
-        R, F = self.of_faces, self._rest.F
-        near = np.empty((len(self._rest.V), 3, 3))
-        near[F] = R[:, None]
-        transposed = np.repeat(R.swapaxes(1, 2).reshape(-1, 1, 9), 3, axis=1)
-        return fit_rotations(self._corners.sums(transposed).reshape(-1, 3, 3), near)
+        R, corners = self.of_faces, self._corners
+        near, sums = R[corners.last_around()], corners.sums_around(R.reshape(-1, 9))
+
+        def fitted(sums, near):
+            return fit_rotations(sums.reshape(-1, 3, 3).swapaxes(1, 2).copy(), near)
+
+        return by_blocks(fitted, sums, near)
 
     def start_from(self, R):
         """Begin with rotations (n,3,3) of the vertices; only triangles without a side remember."""
         means = R[self._rest.F[self._free]].sum(axis=1)
-        self._free_R, self._of_vertices = svd_rotations(means.swapaxes(1, 2)), None
+        self._free_R, self._of_vertices = by_blocks(svd_rotations, means.swapaxes(1, 2)), None
 
     def go_on_with(self, rest, target):
         """Return one with another Target, from the same rotations and held as far out."""
@@ -208,7 +222,7 @@ class FaceStep:
         if len(self._free):
             S = (self._free_pulls @ U).reshape(-1, 3, 3)
             S[self._of_free] += linked[self._is_free]
-            self._free_R = fit_rotations(S, self._free_R)
+            self._free_R = by_blocks(fit_rotations, S, self._free_R)
             gains[self._free] = np.einsum("mij,mji->m", self._free_R, S)
             turned += self._free_pulls.T @ self._free_R.swapaxes(1, 2).reshape(-1, 3)
         cosine, sine = self._turn[:, links.faces, None, None]
@@ -229,13 +243,22 @@ class FaceStep:
 
         What is cut off a rounded side is not all put on at its edges, which resist.
         """
-        rest = self._rest
-        soft, hard = (columns(area_vectors(x, rest.F)) for x in (self._target.soft, U))
-        moved = sum((U - self._target.soft).T.take(corner, axis=1) for corner in rest.F.T) / 3.0
-        lost = self._sums_over_faces(-0.25 * dot(*(soft + hard), *moved))
-        area = self._sums_over_faces(0.5 * np.sqrt(dot(*soft, *soft)))
+        rest, soft = self._rest, self._soft_areas
+        hard, moved = area_vectors(U, rest.F), U - self._target.soft
+
+        def lost_by(F, soft, hard):
+            moves = moved[F[:, 0]] + moved[F[:, 1]] + moved[F[:, 2]]
+            return -0.25 * dot(*columns(soft + hard), *columns(moves / 3.0))
+
+        lost = self._sums_over_faces(by_blocks(lost_by, rest.F, soft, hard))
+        area = self._sums_over_faces(0.5 * np.sqrt(dot(*columns(soft), *columns(soft))))
         outward = GAIN * lost / np.where(area > 0.0, area, 1.0)
         self.hold_outward(outward[rest.topology.component])
+
+    @cached_property
+    def _soft_areas(self):
+        """(m,3) normals of the triangles of the soft shape, as long as twice the area."""
+        return area_vectors(self._target.soft, self._rest.F)
 
     def hold_outward(self, outward):
         """Hold the sides farther out by so much at the vertices (n,)."""
@@ -276,8 +299,8 @@ class FaceStep:
             return
         t, areas = target.directions, target.base.graph.areas[:, None, None]
         along = np.where(target.is_free[:, None, None], 0.0, np.eye(3) - t[:, :, None] * t[:, None])
-        weight = self._corners.sums(np.repeat(areas, 3, axis=1))[:, :, None]
-        sums = self._corners.sums(np.repeat((areas * along).reshape(-1, 1, 9), 3, axis=1))
+        weight = self._corners.sums_around(areas[:, 0])[:, :, None]
+        sums = self._corners.sums_around((areas * along).reshape(-1, 9))
         means = sums.reshape(-1, 3, 3) / np.where(weight > 0.0, weight, 1.0)
         self._free_ways = target.slides[:, None, None] * means
 

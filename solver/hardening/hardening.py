@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import KDTree
 
-from ..algebra import smoothstep
+from ..algebra import by_blocks, smoothstep
 from ..aliases import FloatArray, IntArray
 from ..mesh.components import components
 from ..proxy.samples import extents
@@ -204,9 +204,11 @@ class Hardening:
 
     def between(self, R):
         """Return the rotations (n,3,3) between the soft shape and the hard one R (n,3,3)."""
-        share = self.crispness[:, None, None]
-        mixed = (1.0 - share) * self.rotations + share * R
-        return fit_rotations(mixed.swapaxes(1, 2), R)
+
+        def fitted(share, soft, R):
+            return fit_rotations(((1.0 - share) * soft + share * R).swapaxes(1, 2), R)
+
+        return by_blocks(fitted, self.crispness[:, None, None], self.rotations, R)
 
 
 def is_hardened(stylization):
@@ -263,12 +265,15 @@ def _sides(stylization, base, firm, before, steady):
     F = rest.F
     is_free = ~(firm * _crispness_of(style) > 0.0)[F].all(axis=1) | ~base.normals.any(axis=1)
     is_free |= rest.is_sheet[F[:, 0]]
-    frames = np.broadcast_to(style.Q, R.shape)
     normals = base.normals * (rest.outward[F[:, 0]] if style.forms else 1.0)
+    if len(style.Q) > 1:
+        frames = by_blocks(lambda F: _at_faces(style.Q, F), F)
+    else:
+        frames = np.broadcast_to(_at_faces(style.Q, np.zeros((1, 3), np.intp)), (len(F), 3, 3))
     side, facing, directions = sides_of(
         base.graph,
-        np.einsum("mij,mj->mi", _at_faces(R, F), normals),
-        _at_faces(frames, F),
+        by_blocks(lambda F, x: np.einsum("mij,mj->mi", _at_faces(R, F), x), F, normals),
+        frames,
         style.forms,
         np.sort(style.form_of[F], axis=1)[:, 1],  # of two corners, or of one
         is_free=is_free,

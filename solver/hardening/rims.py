@@ -7,6 +7,8 @@ volume that would have to be held.
 
 import numpy as np
 
+from ..mesh.edges import stable_order
+
 NARROW = 0.1, 0.3
 """area over the squared diagonal: a side with less than the first is a rim, one with more than the
 second is none"""
@@ -38,11 +40,13 @@ def rims_and_flats(graph, V, F, side, facing):
 
 def diagonals(V, F, region, count):
     """Return the diagonals (r,) of the boxes around regions of triangles (m,3), none of them 0."""
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    for corner in F.T:
-        np.minimum.at(low, region, V[corner])
-        np.maximum.at(high, region, V[corner])
-    return np.maximum(np.linalg.norm(high - low, axis=1), 1e-150)
+    order = stable_order(region, count)
+    starts = np.append(0, np.cumsum(np.bincount(region, minlength=count))[:-1])
+    corners, sides = F[order].T, []
+    for x in V.T:
+        low, high = (extreme.reduce(x.take(corners)) for extreme in (np.minimum, np.maximum))
+        sides.append(np.maximum.reduceat(high, starts) - np.minimum.reduceat(low, starts))
+    return np.maximum(np.linalg.norm(sides, axis=0), 1e-150)
 
 
 def _between_flats(graph, region, rim, facing):

@@ -23,7 +23,7 @@ from functools import reduce
 import numpy as np
 import scipy.sparse as sp
 
-from ..algebra import smoothstep, sums_by_group
+from ..algebra import blocks, smoothstep, sums_by_group
 from ..mesh.components import components
 from ..styles.forms import cube
 from ..surface.details import unit
@@ -241,7 +241,10 @@ def settled_labels(costs, shares):
     """
     p, before = _likely(-costs), 0.0
     for _ in range(ROUNDS):
-        p, before = _likely(WEIGHT * (shares @ p) - costs), p
+        gains = shares @ p
+        gains *= WEIGHT
+        gains -= costs
+        p, before = _likely(gains), p
     return _without_teeth((p + before).argmax(axis=1), costs, shares)
 
 
@@ -250,31 +253,37 @@ def _without_teeth(label, costs, shares):
 
     Neighbors never change at once: two rows of teeth would change places again and again.
     """
-    label = label.copy()
-    start = np.repeat(np.arange(len(label)), np.diff(shares.indptr))
+    label, rows = label.copy(), np.arange(len(label))
+    gain = np.zeros(len(label), np.float32)
     for _ in range(MOST_CHANGES):
-        rows = np.unique(start[(label[start] != label[shares.indices]) & (shares.data > 0.0)])
+        near = shares[rows]
+        start = np.repeat(np.arange(len(rows)), np.diff(near.indptr))
+        is_border = (label[rows][start] != label[near.indices]) & (near.data > 0.0)
+        rows = rows[np.unique(start[is_border])]
         near, at = shares[rows], np.arange(len(rows))
         of_label = np.eye(costs.shape[1], dtype=np.float32)[label[near.indices]]
         ends = sp.csr_matrix((near.data, np.arange(near.nnz), near.indptr), (len(rows), near.nnz))
         total = costs[rows] - WEIGHT * (ends @ of_label)
         best = total.argmin(axis=1)
-        gain = np.zeros(len(label), np.float32)
         gain[rows] = total[at, label[rows]] - total[at, best]
         near.data = np.where(near.data > 0.0, gain[near.indices], 0.0)
         is_most = gain[rows] > np.maximum(near.max(axis=1).toarray().ravel(), LEAST_GAIN)
         if not is_most.any():
             break
-        label[rows[is_most]] = best[is_most]
+        changed, gain[rows] = rows[is_most], 0.0
+        label[changed] = best[is_most]
+        rows = np.unique(np.concatenate([rows, shares[changed].indices]))  # others have no border
     return label
 
 
 def _likely(gains):
-    """Return probabilities (m,k) by gains."""
-    gains -= reduce(np.maximum, gains.T)[:, None]  # a third of the time of `max`
-    gains /= TEMPERATURE
-    np.exp(gains, out=gains)
-    gains /= gains.sum(axis=1, keepdims=True)
+    """Return probabilities (m,k) by gains, in place of these."""
+    for part in blocks(len(gains)):
+        some = gains[part]
+        some -= reduce(np.maximum, some.T)[:, None]  # a third of the time of `max`
+        some /= TEMPERATURE
+        np.exp(some, out=some)
+        some /= some.sum(axis=1, keepdims=True)
     return gains
 
 

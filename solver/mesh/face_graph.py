@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
+from ..algebra import by_blocks
 from .components import components
 from .triangles import Triangles
 
@@ -27,7 +28,7 @@ class FaceGraph:
         self.edges = triangles.edges
         self.areas, self.normals = triangles.areas, triangles.normals
         self.one, self.other, self.edge = _distinct(*triangles.edges.pairs(), len(F))
-        self._centroids = V[F].mean(axis=1)
+        self._centroids = by_blocks(lambda F: V[F].mean(axis=1), F)
         ends = V[triangles.edges.lower[self.edge]], V[triangles.edges.upper[self.edge]]
         middle = 0.5 * (ends[0] + ends[1])
         self.length = np.linalg.norm(ends[1] - ends[0], axis=1)
@@ -67,9 +68,20 @@ class FaceGraph:
 
     def is_convex(self, normals):
         """Return over which pairs (k,) a surface with normals (m,3) bends outward."""
-        apart = self._centroids[self.other] - self._centroids[self.one]
-        bend = normals[self.other] - normals[self.one]
-        return np.einsum("kj,kj->k", apart, bend) > 0.0
+        centroids = self._centroids
+
+        def is_convex(one, other):
+            apart, bend = centroids[other] - centroids[one], normals[other] - normals[one]
+            return np.einsum("kj,kj->k", apart, bend) > 0.0
+
+        return by_blocks(is_convex, self.one, self.other)
+
+    def distances(self, values):
+        """Return how far apart values (m,3) of the triangles of each pair are, (k,)."""
+        return by_blocks(
+            lambda one, other: np.linalg.norm(values[one] - values[other], axis=1),
+            *(self.one, self.other),
+        )
 
 
 def _distinct(one, other, edge, m):

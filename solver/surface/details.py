@@ -41,9 +41,12 @@ AGREEING = 0.4, 0.7
 cancel each other around an eye; across an edge of 90 degrees it is the second"""
 ROUNDS = 4
 """in which edges become sharp again"""
+LARGE = 100_000
+"""vertices of a part: each round would take all of the iterations that it has at most"""
 
 _TOLERANCE = 1e-2  # error of the normals, roughly
 _MOST_ITERATIONS = 60
+_FURTHER = 1e-2  # share of the error of the first solve, squared, that is no longer seen
 _LEAST_AREA = 1e-12
 
 
@@ -60,27 +63,36 @@ def radii(share, whole, thickness, part_sizes, is_alone):
     return np.where(is_detail, size, np.minimum(size, of_limb))
 
 
-def smoothed(graph, radius, coupling, outward: FloatArray | float = 1.0, rounds=ROUNDS):
+def smoothed(
+    graph,
+    radius,
+    coupling,
+    outward: FloatArray | float = 1.0,
+    rounds=ROUNDS,
+    largest_part=0,
+):
     """Return the normals (m,3) of triangles without their details, shorter where they disagree.
 
     `graph`: FaceGraph. `radius`: (m,), see `radii`. `coupling`: (k,), of the pairs of triangles of
     the graph, from 0 across the sharp creases of flat sides, where nothing is averaged, to 1.
     `outward`: (m,), optional, -1 for triangles of parts that are inside out. `rounds`: int, in
-    which edges become sharp again.
+    which edges become sharp again. `largest_part`: int, its vertices: beyond `LARGE`, these are
+    solved less exactly. Small parts need them exact: some are averaged as a whole.
     """
     conductance = coupling * graph.length / graph.distance
     conductance *= 0.125 * (radius[graph.one] ** 2 + radius[graph.other] ** 2)
     between = 0.5 * (radius[graph.one] + radius[graph.other])
-    found = _diffused(graph, conductance, graph.normals)
+    found, least = _diffused(graph, conductance, graph.normals)
+    goal = _FURTHER * least if largest_part > LARGE else 0.0
     length = np.linalg.norm(found, axis=1)
     length = np.minimum(length[graph.one], length[graph.other])
     is_edge = np.clip((length - AGREEING[0]) / (AGREEING[1] - AGREEING[0]), 0.0, 1.0)
     for _ in range(rounds):
         guide = unit(found)
-        turn = np.linalg.norm(guide[graph.one] - guide[graph.other], axis=1)
+        turn = graph.distances(guide)
         x = turn * between / graph.distance / EDGE * is_edge
         x *= graph.is_convex(np.multiply(guide.T, outward).T)
-        found = _diffused(graph, conductance / (1.0 + x * x), found)
+        found, _ = _diffused(graph, conductance / (1.0 + x * x), found, goal)
     return np.where(graph.areas[:, None] > 0.0, found, 0.0)
 
 
@@ -103,38 +115,42 @@ def unit(vectors):
     return np.where(is_some, vectors, 0.0) / np.where(is_some, length, 1.0)
 
 
-def _diffused(graph, conductance, near):
-    """Solve (M + div(k grad)) g = M n from a solution near it."""
+def _diffused(graph, conductance, near, goal=0.0):
+    """Solve (M + div(k grad)) g = M n from a solution near it, as `_solved` does."""
     areas = graph.areas + _LEAST_AREA
     A = graph.matrix(-conductance, areas + graph.sums(conductance))
-    return _solved(A, areas[:, None] * graph.normals, near)
+    return _solved(A, areas[:, None] * graph.normals, near, goal)
 
 
-def _solved(A, b, near):
+def _solved(A, b, near, goal):
     """Solve A x = b (n,3) from a solution near it, by conjugate gradients.
 
-    To a hundredth of the distance, roughly: single precision is enough, and takes half of the time.
+    To a hundredth of the distance, roughly, or to a `goal`, if that is farther: single precision is
+    enough, and takes half of the time. Returns x and the goal.
     """
     A = A.astype(np.float32)
     x, b = (np.array(values.T, np.float32, order="C") for values in (near, b))
     scale = 1.0 / A.diagonal()
-    residual = b - _image(A, x)
+    residual = b - _image(A, x, np.empty_like(b))
     z = scale * residual
     direction, rate = z.copy(), float((residual * z).sum())
-    goal = _TOLERANCE**2 * max(rate, 1e-300)
+    goal = max(goal, _TOLERANCE**2 * max(rate, 1e-300))
+    image, product = np.empty_like(b), np.empty_like(b)  # new ones each time are new pages
     for _ in range(_MOST_ITERATIONS):
         if rate <= goal:
             break
-        image = _image(A, direction)
-        step = rate / float((direction * image).sum())
-        x += step * direction
-        residual -= step * image
+        _image(A, direction, image)
+        step = rate / float(np.multiply(direction, image, out=product).sum())
+        x += np.multiply(step, direction, out=product)
+        residual -= np.multiply(step, image, out=product)
         np.multiply(scale, residual, out=z)
-        rate, before = float((residual * z).sum()), rate
+        rate, before = float(np.multiply(residual, z, out=product).sum()), rate
         direction *= rate / before
         direction += z
-    return np.array(x.T, np.float64, order="C")
+    return np.array(x.T, np.float64, order="C"), goal
 
 
-def _image(A, columns):
-    return np.stack([A @ column for column in columns])
+def _image(A, columns, image):
+    for row, column in zip(image, columns, strict=True):
+        row[:] = A @ column
+    return image

@@ -261,7 +261,8 @@ class RestMesh(Value):
         lower, upper = (ends[graph.edge] for ends in (graph.edges.lower, graph.edges.upper))
         radius = self.detail_radii[self.F].mean(axis=1)
         coupling = np.maximum(crease[lower], crease[upper])
-        return details.smoothed(graph, radius, coupling, self.outward[self.F[:, 0], 0])
+        outward, largest = self.outward[self.F[:, 0], 0], np.bincount(self.topology.part).max()
+        return details.smoothed(graph, radius, coupling, outward, largest_part=largest)
 
     @cached_property
     def _drawn(self) -> tuple[FloatArray, FloatArray]:

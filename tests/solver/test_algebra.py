@@ -20,6 +20,16 @@ a, b = RANDOM.normal(size=(2, COUNT, 3))
 IDENTITY = np.eye(3)
 
 
+@pytest.mark.parametrize("count", [0, 1, algebra.BLOCK, 2 * algebra.BLOCK + 7])
+def test_rows_in_blocks_are_those_at_once(count):
+    x, y = RANDOM.normal(size=(count, 3, 2)), RANDOM.normal(size=count)
+
+    def scaled(x, y):
+        return x * y[:, None, None]
+
+    assert_array_equal(algebra.by_blocks(scaled, x, y), scaled(x, y))
+
+
 def listed(result):
     return result if isinstance(result, list) else [result]
 

@@ -12,7 +12,7 @@ from scipy.sparse.linalg import spsolve
 
 from solver import PAPER, ProxyOptions, rest_mesh, stylize
 from solver.mesh.face_graph import FaceGraph
-from solver.surface.details import radii, smoothed
+from solver.surface.details import LARGE, radii, smoothed
 
 DETAIL = replace(PAPER, detail=0.05)
 KEPT = {"keep_rotation": True, "crispness": 0.0}
@@ -40,6 +40,16 @@ def test_without_edges_they_solve_the_diffusion_equation():
     exact = spsolve((M + L).tocsc(), M @ graph.normals)
     np.testing.assert_allclose(found, exact, atol=0.02)
     assert np.linalg.norm(found, axis=1).max() <= 1.0 + 1e-9
+
+
+def test_those_of_a_large_part_are_nearly_as_exact():
+    V, F = shapes.blob(4)
+    graph = FaceGraph(V, F)
+    exact, found = (
+        smoothed(graph, np.full(len(F), 0.1), np.ones(len(graph.one)), largest_part=count)
+        for count in (LARGE, LARGE + 1)
+    )
+    assert 0.0 < np.abs(found - exact).max() < 0.01
 
 
 def test_an_edge_of_the_whole_stays_sharp_and_a_fold_does_not():
