@@ -10,25 +10,26 @@ from .crossings import DEPTH
 BESIDE = 0.03
 """of the size: how far from where two parts cross at rest they may come to cross,..."""
 LONG = 0.1
-"""...if one has triangles with longer edges there"""
+"""...if one has triangles with longer edges there, or if neither is worn"""
 TOUCHING, SHALLOW = 10.0 * DEPTH, 0.003
 """in the unit box: what is no farther apart at rest may press into each other by so much"""
 
 
 def are_where_parts_crossed(rest, pairs):
-    """Return which pairs (k,2) are of two parts, one long, and near where they cross at rest.
+    """Return which pairs (k,2) are of two parts, and near where they cross at rest.
 
     `pairs`: of the triangles that are shown of a RestMesh.
 
-    A stick in a hand goes into it elsewhere as both become square. It would stay round all along
-    its long triangles; small ones may stay soft, or an eye would come through its lid.
+    A fin or a stick goes into its body elsewhere as both become square: it would stay round there,
+    or all along its long triangles. But small ones of skin would come through a shirt.
     """
     V, F = rest.V, rest.shown
     part = rest.topology.part[F[pairs, 0]]
     found = np.flatnonzero(part[:, 0] != part[:, 1])
     corners = V[F[pairs[found]]]
     is_long = np.linalg.norm(corners - np.roll(corners, 1, axis=2), axis=3).max(axis=2) > LONG
-    found = found[is_long.any(axis=1)]
+    is_worn = rest.is_worn[part[found]].any(axis=1)
+    found = found[is_long.any(axis=1) | ~is_worn]
     are_all = np.zeros(len(pairs), dtype=bool)
     if not len(found):
         return are_all

@@ -78,7 +78,7 @@ def test_a_fin_stays_as_aslant_as_it_was(shape):
     U = stylize(V, faces, 0.4, **STYLE).positions
     n = len(V) - len(fin)
     x, y, _ = fin[F].mean(axis=1).T
-    above = F[(np.abs(x) < 0.15) & (y > 0.75) & (F < 25 * 13).all(axis=1)]
+    above = F[(np.abs(x) < 0.15) & (y > 0.5) & (F < 25 * 13).all(axis=1)]
     before, _ = normal_and_bumps(V[n:], above)
     normal, bumps = normal_and_bumps(U[n:], above)
     assert angle(before, normal) < 3.0 and bumps < 3.0
