@@ -14,8 +14,8 @@ class CUBIC_CRAFT_OT_handle_add(AddsGroup, bpy.types.Operator):
     bl_idname = "cubic_craft.handle_add"
     bl_label = "Add Handle"
     bl_description = (
-        "Hold the vertices of the active vertex group, or of the first group that is not held yet."
-        " Where handles overlap, the first takes precedence"
+        "Hold the vertices of the active vertex group, or of the first group that is not held yet,"
+        " but not a map. Where handles overlap, the first takes precedence"
     )
     other, already = "Pin Selection", "has a handle"
 

@@ -17,8 +17,8 @@ class CUBIC_CRAFT_OT_region_add(AddsGroup, bpy.types.Operator):
     bl_idname = "cubic_craft.region_add"
     bl_label = "Add Region"
     bl_description = (
-        "Give the active vertex group, or the first one that is not a region yet, a form, an"
-        " orientation and a cubeness of its own. They begin as those of the object"
+        "Give the active vertex group, or the first one that is not a region yet, but not a map, a"
+        " form, an orientation and a cubeness of its own. They begin as those of the object"
     )
     other, already = "Region from Selection", "is a region"
 

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from bpy.props import StringProperty
 
-from ...cubic_craft_addon import mesh_bridge
+from ...cubic_craft_addon import live, mesh_bridge
 from ...cubic_craft_addon.handles.owner import panel_object
 from ...solver import CubicCraftError
 from .selection import poll_mesh, refuse, report_all
@@ -52,9 +52,11 @@ class AddsGroup:
         taken = self.taken(obj)
         if not self.group:
             candidates = [obj.vertex_groups.active.name, *obj.vertex_groups.keys()]
-            self.group = next((name for name in candidates if name not in taken), "")
+            own = live.own_properties(obj)  # painted maps are active, and cover all
+            others = {*taken, own.map_group, own.detail_group}
+            self.group = next((name for name in candidates if name not in others), "")
             if not self.group:
-                raise CubicCraftError(f"Every vertex group already {self.already}")
+                raise CubicCraftError(f"Every vertex group already {self.already}, or is a map")
         mesh_bridge.vertex_group(obj, self.group)
         if self.group in taken:
             raise CubicCraftError(f'"{self.group}" already {self.already}')

@@ -57,6 +57,24 @@ def test_add_takes_the_active_group_then_the_others():
     assert groups() == []
 
 
+def test_add_takes_no_map_unasked():
+    obj, _, _ = add_posable()
+    for name in ("Map", "Details"):
+        obj.vertex_groups.active = obj.vertex_groups.new(name=name)
+    obj.cubic_craft.map_group, obj.cubic_craft.detail_group = "Map", "Details"
+    for add, entries in (
+        (bpy.ops.cubic_craft.handle_add, obj.cubic_craft.handles),
+        (bpy.ops.cubic_craft.region_add, obj.cubic_craft.regions),
+    ):
+        add()
+        add()
+        assert [entry.group for entry in entries] == [LEFT, RIGHT]
+        with pytest.raises(RuntimeError, match="or is a map"):
+            add()
+        add(group="Map")
+        assert entries[-1].group == "Map"
+
+
 def test_add_refuses_a_group_that_is_not_there_or_has_a_handle():
     add_posable()
     bpy.ops.cubic_craft.handle_add(group=LEFT)
