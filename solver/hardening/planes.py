@@ -35,6 +35,9 @@ UPRIGHT = 0.01, 0.02
 than the second keeps it"""
 FEWEST = 4
 """triangles of a side; fewer are frayed"""
+CLEAR = 0.02
+"""square of the tangent of half the least angle between two planes: opposite sides of a post that
+tapers meet far beyond its tip"""
 _FIRM = 1e3  # weight of the planes of a place beside that of staying there
 _ALIKE = 0.999  # length of the mean of directions that are one
 _NEAREST = 6  # places of edges that take another along
@@ -191,7 +194,13 @@ def _to_planes(n, at, normals, shares, away):
     np.add.at(A, at, weighted[:, :, None] * normals[:, None, :])
     np.add.at(b, at, (shares * away)[:, None] * weighted)
     np.maximum.at(flat, at, shares)
-    return np.linalg.solve(A, b[:, :, None])[:, :, 0], flat
+    moves = np.linalg.solve(A, b[:, :, None])[:, :, 0]
+    several = np.flatnonzero(np.bincount(at, minlength=n) > 1)
+    values, axes = np.linalg.eigh(A[several])
+    is_clear = values > CLEAR * values[:, 2:]
+    along = np.einsum("kji,kj->ki", axes, b[several])
+    moves[several] = np.einsum("kij,kj->ki", axes, np.where(is_clear, along / values, 0.0))
+    return moves, flat
 
 
 def _take_along(moves, places, at, is_edge, normals, reach):

@@ -8,7 +8,7 @@ from proxy_shapes import uv_sphere
 from shapes import sheet
 
 from solver import Run, Setup, SolverOptions, Style, Stylization, rest_mesh
-from solver.hardening.planes import flat_at_rest, flattening
+from solver.hardening.planes import _to_planes, flat_at_rest, flattening
 from solver.mesh.face_graph import FaceGraph
 
 
@@ -92,6 +92,15 @@ def test_a_side_that_was_flat_at_rest_loses_a_larger_bulge():
     flat = flattened(V, F, side, rim=was_flat)[1]
     assert flat[V[:, 0] < 0.49].min() > 0.99
     assert flat[V[:, 0] > 0.51].max() < 0.5
+
+
+@pytest.mark.parametrize(("degrees", "height"), [(2.0, 0.0), (45.0, 0.01 * np.sqrt(2.0))])
+def test_the_tip_of_a_post_that_tapers_goes_not_to_where_its_sides_would_meet(degrees, height):
+    """Posts of a fence became spikes, twice as high."""
+    lean = np.radians(degrees)
+    normals = np.array([[np.cos(lean), 0, np.sin(lean)], [-np.cos(lean), 0, np.sin(lean)]])
+    moves, _ = _to_planes(1, np.zeros(2, int), normals, np.ones(2), np.full(2, 0.01))
+    np.testing.assert_allclose(moves, [[0.0, 0.0, height]], atol=1e-4)
 
 
 def test_a_side_without_a_plane_follows_its_edges():
