@@ -21,7 +21,7 @@ RIM = 0.5
 """...which bend by less than so many radians within a thickness, else it is a rim that is round"""
 EVEN, MOST = np.cos(np.radians(30.0)), 0.8
 """between a plane and its normal, in so much of the area"""
-THIN, SHARE = 0.3, 0.8
+THIN, SHARE = 0.27, 0.8
 """thickness beside the smaller extent of a plane, in so much of its area,..."""
 OPEN = 0.5
 """...or so much of its outline is the border of the surface: a sheet has no thickness"""
