@@ -148,7 +148,7 @@ def test_refusal(inputs, tmp_path, case):
         ("awkward.obj", "--handles .", ["--handles .", "cannot be read"]),
         (
             *("awkward.obj", "--handles handles.json --report handles.json"),
-            ["--report", "is the input"],
+            ["--report", "is an input"],
         ),
         ("awkward.glb", "--handles handles.json", [".glb", "give a box"]),
         ("awkward.blend", "--handles handles.json", ["2 meshes", "--object"]),
