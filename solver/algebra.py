@@ -54,6 +54,15 @@ def sums_by_group(vectors, group, count=0):
     return np.stack([np.bincount(group, x, count) for x in vectors.T], axis=1)
 
 
+def spreads(places, weight, group, count):
+    """Return the variances (count,3) of groups of places (k,3) along their main axes, ascending."""
+    total = np.bincount(group, weight, count)[:, None] + 1e-300
+    away = places - (sums_by_group(weight[:, None] * places, group, count) / total)[group]
+    products = (weight[:, None, None] * away[:, :, None] * away[:, None, :]).reshape(-1, 9)
+    moments = (sums_by_group(products, group, count) / total).reshape(-1, 3, 3)
+    return np.maximum(np.linalg.eigvalsh(moments), 0.0)
+
+
 def by_blocks(function, *arrays):
     """Return what a function makes of arrays (n,...), row by row, for so many rows at once.
 

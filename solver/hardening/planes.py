@@ -11,7 +11,7 @@ dies away toward the middle of it.
 import numpy as np
 from scipy.spatial import KDTree
 
-from ..algebra import smoothstep, sums_by_group
+from ..algebra import smoothstep, spreads, sums_by_group
 from .open_rims import NO_RIMS, from_middles
 from .rims import diagonals
 
@@ -113,13 +113,7 @@ def flat_at_rest(V, F, graph, side):
     `V`: (n,3), rest positions. `F`, `graph`, `side`: as of `flattening`.
     """
     count, region = graph.regions((side[graph.one] == side[graph.other]) & (side[graph.one] >= 0))
-    total = np.maximum(np.bincount(region, graph.areas, count), _LEAST)
-    centers = V[F].mean(axis=1)
-    middle = sums_by_group(graph.areas[:, None] * centers, region, count) / total[:, None]
-    away = centers - middle[region]
-    products = (graph.areas[:, None, None] * away[:, :, None] * away[:, None, :]).reshape(-1, 9)
-    spread = (sums_by_group(products, region, count) / total[:, None]).reshape(-1, 3, 3)
-    distance = np.sqrt(np.maximum(np.linalg.eigvalsh(spread)[:, 0], 0.0))
+    distance = np.sqrt(spreads(V[F].mean(axis=1), graph.areas, region, count)[:, 0])
     share = smoothstep(distance / diagonals(V, F, region, count), *STRAIGHT[::-1])
     share[np.bincount(region, minlength=count) < FEWEST] = 0.0
     share[region[side < 0]] = 0.0

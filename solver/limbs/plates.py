@@ -10,7 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import dijkstra
 
-from ..algebra import sums_by_group
+from ..algebra import spreads, sums_by_group
 from ..mesh.components import components
 from ..proxy.samples import extents
 from .limbs import Limbs
@@ -104,12 +104,8 @@ def _outlines(V, graph, is_joined, plane, count):
 
 def _widths(places, weight, group, count):
     """Return the smaller extents (count,) of flat groups of places (k,3), with areas as weights."""
-    total = np.bincount(group, weight, count) + 1e-300
-    mean = sums_by_group(weight[:, None] * places, group, count) / total[:, None]
-    away = places - mean[group]
-    products = (weight[:, None, None] * away[:, :, None] * away[:, None, :]).reshape(-1, 9)
-    spread = (sums_by_group(products, group, count) / total[:, None]).reshape(-1, 3, 3)
-    lengths = np.sqrt(12.0 * np.maximum(np.linalg.eigvalsh(spread)[:, 1:], 1e-300))
+    lengths = np.sqrt(12.0 * np.maximum(spreads(places, weight, group, count)[:, 1:], 1e-300))
+    total = np.bincount(group, weight, count)
     return np.minimum(lengths[:, 0], total / lengths[:, 1])  # a rim may turn corners
 
 
@@ -138,7 +134,7 @@ def _with_rims(plate, skin, V, thickness):
     """Return plates (n,) with what is no farther from each than it is thick: its rim, if round."""
     row = np.repeat(np.arange(len(V), dtype=np.int32), np.diff(skin.indptr))
     lengths = np.linalg.norm(V[row] - V[skin.indices], axis=1) + 1e-9
-    mesh = sp.csr_matrix((lengths, skin.indices, skin.indptr), shape=(len(V), len(V)))
+    mesh = skin.matrix(lengths)
     thick = np.where(np.isfinite(thickness), thickness, 0.0)
     found = np.flatnonzero(plate >= 0)
     away, _, source = dijkstra(

@@ -80,8 +80,7 @@ def facing_pairs(
     which the balls are, or zero for none. `areas`: (n,). `part`: (n,) int. `count`: int,
     approximate number of vertices to start from. `most`: int, number of vertices that the balls are
     measured against. `least`: cosine between a link and the normals at both ends. `inexactness`: of
-    what is nearest, beside its distance. Returns `i`, `j`:
-    (k,) int; `weights`: (k,).
+    what is nearest, beside its distance. Returns `i`, `j`: (k,) int; `weights`: (k,).
     """
     is_asked = normals.any(axis=1)
     points = np.flatnonzero(is_asked)
