@@ -14,8 +14,9 @@ from ..proxy.samples import extents
 from ..rotation_fit import fit_rotations, orthonormalize
 from .base import base_of
 from .borders import straightening
-from .carrying import away_from, carried, giving_way, together
+from .carrying import away_from, carried
 from .face_step import Target
+from .giving_way import Bodies, together
 from .new_crossings import NewCrossings
 from .open_rims import open_rims
 from .planes import flat_at_rest, flattening
@@ -50,9 +51,9 @@ DRAWN = 0.2
 FLAT = 0.5, 0.9
 """crispness from which on what is nearly flat begins to go to its plane, and is there, wholly"""
 TRIES, GROWING = 6, 1.5
-"""times that what would cross goes as one, with how much more around it each time"""
+"""times that what would cross goes as one, with how much more around it each time it still does"""
 LED = 2
-"""first of them, in which the heavier of two parts stays as flat"""
+"""first of them that two cross, in which the heavier stays as flat"""
 _POINT = 1e-6  # extent in the unit box; what has none is held all the same
 _ORTHONORMALIZATIONS = 4
 
@@ -90,6 +91,11 @@ class Hardening:
     def crispness(self):
         """(n,) how far the vertices go to the hard shape, from 0 to 1: what is flat, wholly."""
         return self.asked + smoothstep(self.asked, *FLAT) * self.flat * (1.0 - self.asked)
+
+    @cached_property
+    def _bodies(self):
+        base = self.target.base
+        return Bodies(base.rest, base.graph, self.side)
 
     def with_crispness(self, style):
         """Return the same with the crispness of another SolvedStyle; what was soft stays so."""
@@ -144,8 +150,8 @@ class Hardening:
         nothing = np.zeros_like(moves)
         round_ = replace(self, flat=np.zeros_like(flat), moves=nothing, along=nothing)
         before = round_.positions(U)
-        free = share = away_from(before, fixed)
-        found = replace(round_, flat=share * flat, moves=share[:, None] * moves)
+        free = away_from(before, fixed)
+        found = replace(round_, flat=free * flat, moves=free[:, None] * moves)
         of_parts = carried(rest, found.positions(U) - before, fixed)
         found = replace(found, along=free[:, None] * of_parts)
         X, F = found.positions(U), rest.F if rest.unrefined is None else rest.unrefined
@@ -153,29 +159,41 @@ class Hardening:
         if may_cross or not is_moved.any():
             return found
         crossings = NewCrossings(before, X, F, is_moved, rest.faces, rest.topology.part, apart)
-        known = crossing = crossings.at(X)
-        part = rest.topology.part
-        area = np.bincount(part, rest.areas)
-        stuck = np.empty((0, 2), np.intp)
-        for number in range(TRIES):
+        seen = np.empty((0, 2), np.intp)
+        for number in range(TRIES + 1):
+            crossing = crossings.at(found.positions(U)).reshape(-1, 2)
             if not len(crossing):
                 break
-            if number >= LED:
-                stuck = np.concatenate([stuck, part[F[crossing, 0]].reshape(-1, 2)])
-            pairs = known.reshape(-1, 2)
-            gives_way = giving_way(part[F[pairs, 0]], area, stuck)
-            is_led = gives_way.any(axis=1)
-            of_led, others = (
-                away_from(before, F[pairs[x]], GROWING**number) for x in (is_led, ~is_led)
-            )
-            of_led[np.isin(part, part[F[pairs[gives_way[:, ::-1]], 0]])] = 1.0
-            share = np.minimum(share, np.minimum(of_led, others))
-            as_one = together(before, F, pairs, X - before, part, share < free, gives_way)
-            along = share[:, None] * of_parts + (free - share)[:, None] * as_one
+            seen = np.concatenate([seen, crossing])
+            pairs, times = np.unique(seen, axis=0, return_counts=True)
+            if number == TRIES:  # in vain: it is soft around them for nothing
+                is_left = crossings.are_among(pairs, crossing)
+                pairs, times = pairs[~is_left], times[~is_left]
+            share, as_one = self._apart(before, X - before, F, pairs, times, free)
+            along = share[:, None] * of_parts + as_one
             found = replace(found, flat=share * flat, moves=share[:, None] * moves, along=along)
-            crossing = crossings.at(found.positions(U))
-            known = np.concatenate([known, crossing])
         return found
+
+    def _apart(self, before, moves, F, pairs, times, free):
+        """Return how far vertices (n,) may go to planes, and how far (n,3) they go as one instead.
+
+        `moves`: (n,3), to planes. `pairs`: (k,2) int, of triangles that have come to cross, and how
+        many `times` (k,) they did. `free`: (n,), the most.
+        """
+        bodies = self._bodies
+        of_pairs = bodies.of_pairs(pairs)
+        gives_way = bodies.giving_way(of_pairs, of_pairs[times > LED])
+        is_led = gives_way.any(axis=1)
+        share, of_led = free, np.ones_like(free)
+        for time in np.unique(times):
+            led, others = (F[pairs[(times == time) & which]] for which in (is_led, ~is_led))
+            of_led = np.minimum(of_led, away_from(before, led, GROWING ** (time - 1)))
+            share = np.minimum(share, away_from(before, others, GROWING ** (time - 1)))
+        of_led[bodies.vertices(of_pairs[gives_way[:, ::-1]])] = 1.0
+        share = np.minimum(share, of_led)
+        part = self.target.base.rest.topology.part
+        as_one = together(before, F, pairs, moves, part, share < free, gives_way)
+        return share, (free - share)[:, None] * as_one
 
     def straightening(self, U, fixed, *, may_cross=False):
         """Return the `straightening` of the end U (n,3).

@@ -69,8 +69,7 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim
         was flat, see `flat_at_rest`.
     rims : as of `open_rims`, optional
     """
-    n, is_same = len(U), (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
-    count, region = graph.regions(is_same)
+    n, (count, region) = len(U), graph.regions_of_sides(side)
     area = np.bincount(region, graph.areas, count)
     facing, has_one = _facing(directions, graph.areas, region, area)
     is_whole = np.bincount(region, minlength=count) >= FEWEST
@@ -99,8 +98,9 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim
     moves, flat = _to_planes(n, at, normals, shares, away)
     is_edge = np.bincount(at, minlength=n)[at] > 1
     if is_edge.any() and not is_edge.all():
-        one, other = region[graph.one[~is_same]], region[graph.other[~is_same]]
-        around = sum(np.bincount(x, graph.length[~is_same], count) for x in (one, other))
+        one, other = region[graph.one], region[graph.other]
+        length = graph.length * (one != other)
+        around = sum(np.bincount(x, length, count) for x in (one, other))
         reach = np.append(area / np.maximum(around, _LEAST), 0.0)[np.minimum(of, count)]
         places = np.concatenate([U[at], _FAR * of[:, None]], axis=1)
         _take_along(moves, places, at, is_edge, normals, reach)
@@ -112,7 +112,7 @@ def flat_at_rest(V, F, graph, side):
 
     `V`: (n,3), rest positions. `F`, `graph`, `side`: as of `flattening`.
     """
-    count, region = graph.regions((side[graph.one] == side[graph.other]) & (side[graph.one] >= 0))
+    count, region = graph.regions_of_sides(side)
     distance = np.sqrt(spreads(V[F].mean(axis=1), graph.areas, region, count)[:, 0])
     share = smoothstep(distance / diagonals(V, F, region, count), *STRAIGHT[::-1])
     share[np.bincount(region, minlength=count) < FEWEST] = 0.0

@@ -26,8 +26,7 @@ def rims_and_flats(graph, V, F, side, facing):
     `graph`: FaceGraph. `V`: (n,3), positions of the soft shape. `F`: (m,3) int. `side`: (m,) int.
     `facing`: (m,3), as `sides_of` returns them.
     """
-    is_same = (side[graph.one] == side[graph.other]) & (side[graph.one] >= 0)
-    count, region = graph.regions(is_same)
+    count, region = graph.regions_of_sides(side)
     width = np.bincount(region, graph.areas, count) / diagonals(V, F, region, count) ** 2
     share = np.clip((width - NARROW[0]) / (NARROW[1] - NARROW[0]), 0.0, 1.0)
     rim = np.where(np.bincount(region, minlength=count) < FEWEST, 0.0, 1.0 - share)

@@ -56,6 +56,10 @@ TIES = 1e-3 * np.array([1.0, 2.0, 3.0])
 COPLANAR = np.cos(np.radians(0.5))
 """between the normals of triangles in one plane"""
 SHARP = np.cos(np.radians(10.0))
+SQUARE, STILL_SQUARE = 1.0 - np.cos(np.radians([6.0, 20.0]))
+"""what a plane, as a ledge, costs at most at rest and in the soft shape to be a side of its own..."""
+FIRM = 0.45
+"""...that follows its neighbors so much less: what they all are would else cost less"""
 LARGE = 0.002
 """of the area of all: what lies in a plane stands out of a curve if it is larger, or if half of the
 edges around turn by more than the angle of `SHARP`"""
@@ -109,7 +113,9 @@ def sides_of(
     is_followed = (form_of[graph.one] == form_of[graph.other]) & ~is_free[graph.one]
     is_followed &= ~is_free[graph.other]
     group = _groups(graph, whole, form_of)
-    side = _of_groups(graph, costs, is_followed, group)
+    at_rest = _costs(np.einsum("mij,mj->mi", frames, graph.normals), parted, form_of)
+    is_square = (at_rest.min(axis=1) < SQUARE) & (costs.min(axis=1) < STILL_SQUARE)
+    side = _of_groups(graph, costs, is_followed, group, is_square)
     side[is_free | (side == costs.shape[1] - 1)] = NO_SIDE
     facing = np.zeros_like(local)
     for number, (flat, _) in enumerate(parted):
@@ -179,8 +185,11 @@ def _are_planes(graph, part, count):
     return worst > COPLANAR
 
 
-def _of_groups(graph, costs, is_followed, group):
-    """Return the likeliest label (m,) of each triangle, the same for all of a group."""
+def _of_groups(graph, costs, is_followed, group, is_square):
+    """Return the likeliest label (m,) of each triangle, the same for all of a group.
+
+    `is_square`: (m,) bool. What is so all over is a side of its own.
+    """
     count = group.max() + 1
     weights = graph.areas + _LEAST_AREA
     gather = sp.csr_matrix((weights, (group, np.arange(len(group)))), shape=(count, len(group)))
@@ -188,6 +197,8 @@ def _of_groups(graph, costs, is_followed, group):
     one, other = group[graph.one], group[graph.other]
     shares = _shares(one, other, graph.length * (is_followed & (one != other)), count)
     costs = np.float32((gather @ costs) / area)
+    is_own = np.bincount(group, ~is_square, count) == 0.0
+    shares = sp.csr_matrix(sp.diags(np.where(is_own, np.float32(FIRM), np.float32(1.0))) @ shares)
     return settled_labels(costs, shares)[group]
 
 

@@ -7,6 +7,7 @@ box along itself, and swinging gains nothing. `Limbs` says which way each vertex
 from the shape (`limbs_of_shape`) or known from bones. `turns` makes the frames of it.
 """
 
+from .boxed import along_boxes
 from .covering import with_coverings
 from .hollows import with_hollows
 from .joined import joined_limbs, placed_limbs
@@ -20,6 +21,7 @@ from .turns import turns
 __all__ = (
     "KnownLimbs",
     "Limbs",
+    "along_boxes",
     "joined_limbs",
     "limbs_of_bones",
     "limbs_of_shape",

@@ -66,6 +66,10 @@ class FaceGraph:
         pairs = np.stack([self.one[is_joined], self.other[is_joined]], axis=1)
         return components(pairs, len(self.areas))
 
+    def regions_of_sides(self, side):
+        """Return the `regions` of a side (m,) int each; a triangle with a negative one is one."""
+        return self.regions((side[self.one] == side[self.other]) & (side[self.one] >= 0))
+
     def is_convex(self, normals):
         """Return over which pairs (k,) a surface with normals (m,3) bends outward."""
         centroids = self._centroids

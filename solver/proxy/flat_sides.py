@@ -9,7 +9,7 @@ plate, such as a lid, a coin or the top of a table, hold its rim: the less of it
 
 import numpy as np
 
-from ..algebra import columns, dot, take
+from ..algebra import columns, dot, smoothstep, take
 from ..mesh.components import components
 from .sheets import moments_of_normals
 
@@ -17,6 +17,9 @@ STIFFNESS = 0.15
 """weight of the triangles of a flat side"""
 LEAST_SHARE = 0.03
 """of the area of a part; a smaller side may be a facet of a round shape"""
+FLAT = 0.45, 0.7
+"""of the area of a part in such sides: with less than the first it has all details, with more than
+the second none. A window frame on a wall would else tilt the wall, and be torn by it"""
 PLATE, LEAST = 0.25, 0.05
 """share of the area of a plate that does not face along its axis, with which its faces are as stiff
 as any flat side; they are less with less, down to a factor for the thinnest"""
@@ -31,15 +34,11 @@ def stiffness(triangles, part):
     `triangles`: Triangles. `part`: (n,) int, connected part of each vertex.
     """
     areas, normals = triangles.areas, triangles.normals
-    one, other = triangles.edges.triangles()
-    is_flat = dot(*columns(take(normals, one)), *columns(take(normals, other))) > COPLANAR
-    pairs = np.stack([one[is_flat], other[is_flat]], axis=1)
-    count, side = components(pairs, len(areas))
     of_face = triangles.parts(part)
     of_part = np.bincount(of_face, areas)
-    share = np.bincount(side, areas, count)[side] / np.maximum(of_part[of_face], 1e-300)
+    is_large = _are_large(areas, normals, triangles.edges.triangles(), of_face, of_part)
     of_plates = STIFFNESS * _of_plates(areas, normals, of_face, len(of_part))
-    return np.where(share >= LEAST_SHARE, of_plates, 1.0)
+    return np.where(is_large, of_plates, 1.0)
 
 
 def _of_plates(areas, normals, of_face, count):
@@ -50,3 +49,29 @@ def _of_plates(areas, normals, of_face, count):
     factors = np.clip((rim / PLATE) ** 2, LEAST, 1.0)
     is_face = np.abs((normals * axes[of_face, :, -1]).sum(axis=1)) > ALONG
     return np.where(is_face, factors[of_face], 1.0)
+
+
+def flat_shares(graph, part, F):
+    """Return how far parts (n,) consist of large flat sides, from 0 to 1: they have no details.
+
+    `graph`: FaceGraph of triangles F (m,3). `part`: (n,) int.
+    """
+    of_face = part[F[:, 0]]
+    of_part = np.bincount(of_face, graph.areas)
+    pairs = graph.one, graph.other
+    is_large = _are_large(graph.areas, graph.normals, pairs, of_face, of_part)
+    flat = np.bincount(of_face, graph.areas * is_large, len(of_part))
+    return smoothstep(flat / np.maximum(of_part, 1e-300), *FLAT)[part]
+
+
+def _are_large(areas, normals, pairs, of_face, of_part):
+    """Return which triangles (m,) are of a flat side that is no facet of a round shape.
+
+    `pairs`: two (k,) int, triangles that share an edge. `of_face`: (m,) int, the part of each.
+    `of_part`: (p,) area.
+    """
+    one, other = pairs
+    is_flat = dot(*columns(take(normals, one)), *columns(take(normals, other))) > COPLANAR
+    count, side = components(np.stack([one[is_flat], other[is_flat]], axis=1), len(areas))
+    share = np.bincount(side, areas, count)[side] / np.maximum(of_part[of_face], 1e-300)
+    return share >= LEAST_SHARE

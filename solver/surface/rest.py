@@ -15,7 +15,15 @@ from ..coarse_to_fine.contraction import contract
 from ..contacts.crossings import CrossingTriangles
 from ..contacts.polygons import are_apart
 from ..inputs import real_numbers
-from ..limbs import Limbs, limbs_of_shape, with_coverings, with_hollows, with_plates, without_shells
+from ..limbs import (
+    Limbs,
+    along_boxes,
+    limbs_of_shape,
+    with_coverings,
+    with_hollows,
+    with_plates,
+    without_shells,
+)
 from ..limbs.covering import COVERING
 from ..mesh.face_graph import FaceGraph
 from ..mesh.rest_measures import areas_and_normals, triangle_areas_and_normals
@@ -25,6 +33,7 @@ from ..mesh.triangles import Triangles
 from ..mesh.unit_box import UnitBox
 from ..proxy import PAPER, InputMap, Links, ProxyOptions, no_links
 from ..proxy.boxes import box_frames
+from ..proxy.flat_sides import flat_shares
 from ..proxy.nearest import Nearest
 from ..proxy.samples import extents
 from ..proxy.sheets import cards, extrusions, planar_sheets
@@ -233,13 +242,16 @@ class RestMesh(Value):
     def detail_radii(self) -> FloatArray:
         """(n,) radius over which normals are averaged, so that details have none of their own."""
         parts, component = self.topology.part, self.topology.component
-        return details.radii(
+        radii = details.radii(
             self.options.detail,
             extents(self.V, component)[component],
             self.thickness,
             extents(self.V, parts)[parts],
             np.bincount(parts)[parts] == np.bincount(component)[component],
         )
+        if self.options.refine:
+            radii = radii * (1.0 - flat_shares(self.face_graph, parts, self.F))
+        return radii
 
     @cached_property
     def face_graph(self) -> FaceGraph:
@@ -297,6 +309,8 @@ class RestMesh(Value):
         thickness = np.where(self.box_frames[1], np.inf, self.thickness)
         of_surface = self.F, self.face_graph, self.skin, self.topology.part
         found = with_plates(found, self.V, *of_surface, thickness)
+        of_faces = self.F, self.face_graph.areas, self.face_graph.normals
+        found = along_boxes(found, self.box_frames[0], *of_faces)
         neighbors = self.to_neighbors
         if not len(neighbors):
             return found
