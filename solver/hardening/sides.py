@@ -57,7 +57,7 @@ COPLANAR = np.cos(np.radians(0.5))
 """between the normals of triangles in one plane"""
 SHARP = np.cos(np.radians(10.0))
 SQUARE, STILL_SQUARE = 1.0 - np.cos(np.radians([6.0, 20.0]))
-"""what a plane, as a ledge, costs at most at rest and in the soft shape to be a side of its own..."""
+"""what a plane, as a ledge, costs at most at rest, and softly, to be a side of its own,..."""
 FIRM = 0.45
 """...that follows its neighbors so much less: what they all are would else cost less"""
 LARGE = 0.002
