@@ -57,7 +57,7 @@ def flat_shares(graph, part, F):
     `graph`: FaceGraph of triangles F (m,3). `part`: (n,) int.
     """
     of_face = part[F[:, 0]]
-    of_part = np.bincount(of_face, graph.areas)
+    of_part = np.bincount(of_face, graph.areas, part.max() + 1)
     pairs = graph.one, graph.other
     is_large = _are_large(graph.areas, graph.normals, pairs, of_face, of_part)
     flat = np.bincount(of_face, graph.areas * is_large, len(of_part))
