@@ -14,9 +14,8 @@ from ..proxy.samples import extents
 from ..rotation_fit import fit_rotations, orthonormalize
 from .base import base_of
 from .borders import straightening
-from .carrying import away_from, carried
+from .carrying import away_from, carried, giving_way, together
 from .face_step import Target
-from .giving_way import Bodies, together
 from .new_crossings import NewCrossings
 from .open_rims import open_rims
 from .planes import flat_at_rest, flattening
@@ -92,11 +91,6 @@ class Hardening:
         """(n,) how far the vertices go to the hard shape, from 0 to 1: what is flat, wholly."""
         return self.asked + smoothstep(self.asked, *FLAT) * self.flat * (1.0 - self.asked)
 
-    @cached_property
-    def _bodies(self):
-        base = self.target.base
-        return Bodies(base.rest, base.graph, self.side)
-
     def with_crispness(self, style):
         """Return the same with the crispness of another SolvedStyle; what was soft stays so."""
         return replace(self, asked=self.firm * _crispness_of(style))
@@ -158,17 +152,15 @@ class Hardening:
         is_moved = (before != X).any(axis=1)[F].any(axis=1)
         if may_cross or not is_moved.any():
             return found
-        crossings = NewCrossings(before, X, F, is_moved, rest.faces, rest.topology.part, apart)
+        part = rest.topology.part
+        crossings = NewCrossings(before, X, F, is_moved, rest.faces, part, apart)
         seen = np.empty((0, 2), np.intp)
-        for number in range(TRIES + 1):
+        for _ in range(TRIES):
             crossing = crossings.at(found.positions(U)).reshape(-1, 2)
             if not len(crossing):
                 break
             seen = np.concatenate([seen, crossing])
             pairs, times = np.unique(seen, axis=0, return_counts=True)
-            if number == TRIES:  # in vain: it is soft around them for nothing
-                is_left = crossings.are_among(pairs, crossing)
-                pairs, times = pairs[~is_left], times[~is_left]
             share, as_one = self._apart(before, X - before, F, pairs, times, free)
             along = share[:, None] * of_parts + as_one
             found = replace(found, flat=share * flat, moves=share[:, None] * moves, along=along)
@@ -180,18 +172,17 @@ class Hardening:
         `moves`: (n,3), to planes. `pairs`: (k,2) int, of triangles that have come to cross, and how
         many `times` (k,) they did. `free`: (n,), the most.
         """
-        bodies = self._bodies
-        of_pairs = bodies.of_pairs(pairs)
-        gives_way = bodies.giving_way(of_pairs, of_pairs[times > LED])
+        rest = self.target.base.rest
+        part, parts = rest.topology.part, rest.topology.part[F[pairs, 0]]
+        gives_way = giving_way(parts, np.bincount(part, rest.areas), parts[times > LED])
         is_led = gives_way.any(axis=1)
         share, of_led = free, np.ones_like(free)
         for time in np.unique(times):
             led, others = (F[pairs[(times == time) & which]] for which in (is_led, ~is_led))
             of_led = np.minimum(of_led, away_from(before, led, GROWING ** (time - 1)))
             share = np.minimum(share, away_from(before, others, GROWING ** (time - 1)))
-        of_led[bodies.vertices(of_pairs[gives_way[:, ::-1]])] = 1.0
+        of_led[np.isin(part, parts[gives_way[:, ::-1]])] = 1.0
         share = np.minimum(share, of_led)
-        part = self.target.base.rest.topology.part
         as_one = together(before, F, pairs, moves, part, share < free, gives_way)
         return share, (free - share)[:, None] * as_one
 

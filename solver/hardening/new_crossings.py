@@ -41,9 +41,5 @@ class NewCrossings:
             is_new &= ~np.isin(parts, self._parts_before)
         return pairs[is_new].ravel()
 
-    def are_among(self, pairs, others):
-        """Return which pairs (k,2) of triangles are among others (l,2)."""
-        return np.isin(self._keys(pairs), self._keys(others))
-
     def _keys(self, pairs):
         return pairs[:, 0] * self._m + pairs[:, 1]

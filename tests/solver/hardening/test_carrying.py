@@ -5,7 +5,7 @@ import numpy as np
 from proxy_shapes import uv_sphere
 
 from solver import rest_mesh
-from solver.hardening.carrying import carried
+from solver.hardening.carrying import carried, giving_way, together
 
 
 def body_with_knob():
@@ -32,3 +32,36 @@ def test_what_is_fixed_stays_and_takes_the_other_part_along():
     moves = np.where(is_knob[:, None], 0.0, [0.0, 0.1, 0.0])
     along = carried(rest, moves, np.flatnonzero(is_knob)[:1])
     assert np.abs(along[is_knob]).max() < 1e-3
+
+
+def test_two_parts_that_would_cross_go_as_one_and_folds_stay():
+    U = np.random.default_rng(0).random((200, 3))
+    moves = 0.1 + U * [0.1, 0.0, 0.0]
+    F, part = np.arange(12).reshape(4, 3), np.zeros(200, int)
+    part[:3] = 1
+    pairs = np.array([[0, 1], [2, 3]])
+    along = together(U, F, pairs, moves, part, np.ones(200, bool), np.zeros((2, 2), bool))
+    two, fold = F.reshape(2, 6)  # which share no corner
+    np.testing.assert_allclose(along[two], np.tile(moves[two].mean(axis=0), (6, 1)))
+    assert not along[fold].any()
+    rest = along[12:, 0] / along[two[0], 0]
+    assert rest.min() > 0.0 and rest.max() < 1.0 and np.ptp(rest) > 0.5
+    is_near = np.linalg.norm(U[12:, None] - U[two], axis=2).min(axis=1) < 0.1
+    assert rest[is_near].mean() > rest.mean() + 0.1
+
+
+def test_what_is_much_lighter_goes_as_the_place_that_it_would_cross():
+    """A candle bent the cake that it stands on: it gives way now, until nothing but that helps."""
+    U = np.array(
+        [[0.0, 0, 0], [2, 0, 0], [0, 2, 0], [0.5, 0.5, 0.1], [0.6, 0.5, 0.1], [0.5, 0.7, 0]]
+    )
+    moves = np.zeros((6, 3))
+    moves[1, 2] = 0.4
+    F, part, pairs = np.arange(6).reshape(2, 3), np.repeat([0, 1], 3), np.array([[0, 1]])
+    gives_way = giving_way(part[F[pairs, 0]], np.array([2.0, 0.1]), np.empty((0, 2), int))
+    assert gives_way.tolist() == [[False, True]]
+    along = together(U, F, pairs, moves, part, np.ones(6, bool), gives_way)
+    np.testing.assert_allclose(along[:3], moves[:3])
+    np.testing.assert_allclose(along[3:, 2], [0.1, 0.12, 0.1])
+    assert not giving_way(part[F[pairs, 0]], np.array([2.0, 1.0]), np.empty((0, 2), int)).any()
+    assert not giving_way(part[F[pairs, 0]], np.array([2.0, 0.1]), np.array([[1, 0]])).any()
