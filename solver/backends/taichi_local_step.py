@@ -63,16 +63,7 @@ class TaichiLocalStep:
 
     @alone
     def __init__(
-        self,
-        rest,
-        lam,
-        Q,
-        options,
-        form: Any = CUBE,
-        normals=None,
-        *,
-        device="cpu",
-        precision=None,
+        self, rest, lam, Q, options, form: Any = CUBE, normals=None, *, device="cpu", precision=None
     ):
         runtime = taichi_runtime.start(device)
         self._rest = rest

@@ -306,11 +306,7 @@ class Run:
         self._phase = soften
 
     def _soften(
-        self,
-        last: KeepApart,
-        is_between_parts: bool,
-        fewest: float = math.inf,
-        tries: int = 0,
+        self, last: KeepApart, is_between_parts: bool, fewest: float = math.inf, tries: int = 0
     ) -> None:
         """Leave soft what still crosses, again and again while that helps.
 

@@ -65,14 +65,7 @@ def thickness_links(V, normals, areas, part, outward):
 
 
 def facing_pairs(
-    V,
-    normals,
-    areas,
-    part,
-    count=SAMPLES,
-    most=MOST_POINTS,
-    least=FACING,
-    inexactness=INEXACTNESS,
+    V, normals, areas, part, count=SAMPLES, most=MOST_POINTS, least=FACING, inexactness=INEXACTNESS
 ):
     """Return pairs of vertices on opposite sides of a part, and weights of links between them.
 

@@ -28,10 +28,7 @@ from .rest import LIGHT, RestMesh
 
 
 def rest_mesh(
-    V: ArrayLike,
-    F: Faces,
-    proxy: ProxyOptions | None = None,
-    faces: ArrayLike | None = None,
+    V: ArrayLike, F: Faces, proxy: ProxyOptions | None = None, faces: ArrayLike | None = None
 ) -> RestMesh:
     """Build the RestMesh of a mesh.
 
@@ -109,36 +106,18 @@ def rest_mesh(
             C = C * factors[:, None]
         skin = spokes_and_rims(V, F, C, triangles.edges)
         to_other_side, across_cavities, across_gaps = search.result() if search else [None] * 3
+    linked = parts.linked(to_neighbors.pairs())
+    walls = to_other_side, across_cavities, across_gaps
     rest = RestMesh(
-        input_positions,
-        surface.input_map,
-        surface.box,
-        V,
-        parts.linked(to_neighbors.pairs()),
-        areas,
-        normals,
-        is_flat,
-        smooth,
-        shares,
-        to_neighbors,
-        to_other_side,
-        across_cavities,
-        across_gaps,
-        proxy,
-        C,
-        skin,
-        skin,
-    )
-    matrices = skin.with_links(V, rest.links)
-    return replace(
-        rest,
-        matrices=matrices,
+        *(input_positions, surface.input_map, surface.box, V, linked, areas, normals),
+        *(is_flat, smooth, shares, to_neighbors, *walls, proxy, C, skin, skin),
         triangles=given,
         unrefined=surface.unrefined,
         pieces=surface.pieces,
         faces=surface.faces,
         given_faces=faces,
     )
+    return replace(rest, matrices=skin.with_links(V, rest.links))
 
 
 def links_within(triangles, normals, areas, part) -> tuple[Links, Links, Links]:

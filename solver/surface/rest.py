@@ -34,14 +34,7 @@ from . import details
 
 LIGHT = 0.01
 """weight of planar sheets in place and rotation of what they hang on, in stiffness and links"""
-_OF_THE_SURFACE = (
-    "face_graph",
-    "face_normals",
-    "outward",
-    "shown",
-    "thickness",
-    "unrefined_graph",
-)
+_OF_THE_SURFACE = ("face_graph", "face_normals", "outward", "shown", "thickness", "unrefined_graph")
 """cached properties that links change nothing in"""
 
 
