@@ -52,6 +52,34 @@ class Kind:
 
 
 @ti.func
+def covariance(
+    kind: ti.template(),
+    i,
+    U: ti.template(),
+    indptr: ti.template(),
+    indices: ti.template(),
+    gather: ti.template(),
+    weights: ti.template(),
+):
+    """Return S_i of `spokes_and_rims.py`, and sum w |d|^2 over the edges d of vertex i.
+
+    The loop over neighbors could end early, for an index that never comes: else LLVM makes a vector
+    loop of it, which gains nothing with six neighbors and takes as long to load as all the rest.
+    """
+    here = U[i]
+    S = kind.mat3(0.0)
+    quadratic = kind.real(0.0)
+    for entry in range(indptr[i], indptr[i + 1]):
+        j = indices[entry]
+        if j < 0:
+            break
+        edge = U[j] - here
+        S += kind.mat3(ti.static(outer(*gather[entry], *edge)))
+        quadratic += weights[entry] * ti.static([dot(*edge, *edge)])[0]
+    return S, quadratic
+
+
+@ti.func
 def rotation_near(kind: ti.template(), S, normal, Q, cubeness, last, last_s):
     """Return R, s, tr(R S), |Q R n|_1, and whether R is certified.
 

@@ -10,7 +10,7 @@ that results are the same bit for bit.
 Python runs through each kernel once per process, even when it is compiled already, and spends about
 as long on a product of two matrices in Taichi's own words as on a hundred products of scalars. So
 small algebra is that of `algebra.py`, on entries; what is left are vectors and control flow. The
-loop over neighbors could end early, as that of `taichi_covariances.py`.
+loop over neighbors could end early, as that of `covariance`.
 """
 
 # pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
@@ -22,8 +22,7 @@ from typing import Any
 from ..algebra import nearer_to_orthogonal, times
 from .engine import ti
 from .kernel_types import kernel_types, state_types
-from .taichi_active_set import Kind, rotation_near
-from .taichi_covariances import covariance
+from .taichi_active_set import Kind, covariance, rotation_near
 from .taichi_faces import rotation_on_faces
 from .taichi_lanes import make_local_step as in_lanes
 

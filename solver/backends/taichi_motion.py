@@ -8,7 +8,7 @@ import numpy as np
 from ..global_step.motion import largest
 from .engine_lock import alone
 from .taichi_cycle import TaichiCycle
-from .warmup import warm_up
+from .taichi_runtime import warm_up
 
 
 class TaichiMotion:

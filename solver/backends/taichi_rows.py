@@ -14,8 +14,7 @@ import numpy as np
 
 from .engine import ti
 from .kernel_types import kernel_types, state_types
-from .taichi_active_set import Kind
-from .taichi_covariances import covariance
+from .taichi_active_set import Kind, covariance
 
 
 class DeviceRows:

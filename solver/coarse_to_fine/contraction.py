@@ -4,7 +4,7 @@
 import numpy as np
 
 from ..algebra import sums_by_group
-from ..global_step.aggregation import aggregates
+from ..global_step.multigrid import aggregates
 from ..mesh.triangles import distinct
 from ..optional_packages import optional_package
 

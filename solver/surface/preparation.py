@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike
 from ..aliases import Faces
 from ..errors import CubicCraftError
 from ..inputs import instance, whole_numbers
-from ..mesh.cotangents import cotangents
 from ..mesh.mesh_checks import check_mesh, faces_of_triangles
-from ..mesh.rest_measures import areas_and_normals
+from ..mesh.rest_measures import areas_and_normals, cotangents
 from ..mesh.spokes_and_rims import spokes_and_rims
 from ..mesh.topology import topology
 from ..mesh.triangles import Triangles

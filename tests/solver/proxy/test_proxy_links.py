@@ -11,8 +11,7 @@ from devices import by_device
 
 from solver import ProxyOptions, rest_mesh, stylize
 from solver.mesh.components import components
-from solver.mesh.cotangents import cotangents
-from solver.mesh.rest_measures import areas_and_normals
+from solver.mesh.rest_measures import areas_and_normals, cotangents
 from solver.mesh.spokes_and_rims import spokes_and_rims
 from solver.mesh.triangles import Triangles
 from solver.proxy.closest_point import closest_points
