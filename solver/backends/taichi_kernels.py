@@ -21,6 +21,7 @@ from typing import Any
 
 from ..algebra import nearer_to_orthogonal, times
 from .engine import ti
+from .face_tables import FaceTables
 from .kernel_types import kernel_types, state_types
 from .taichi_active_set import Kind, covariance, rotation_near
 from .taichi_faces import rotation_on_faces
@@ -63,6 +64,9 @@ def make_kernels(real, width, has_lanes=False):
         edge_start: ti.i32,
         facet_start: ti.i32,
     ):
+        tables = ti.static(
+            FaceTables(frames, numbers, targets, ways, between, edge_start, facet_start)
+        )
         for i in range(lam.shape[0]):
             S, quadratic = covariance(kind, i, U, indptr, indices, gather, weights)
             S /= area_scale[i]
@@ -78,20 +82,7 @@ def make_kernels(real, width, has_lanes=False):
                 certified[i] = ti.cast(is_certified, ti.i32)
             else:
                 rotation, s, fit, cost, is_certified = rotation_on_faces(
-                    kind,
-                    S,
-                    normals[i],
-                    Q[i * q_stride],
-                    lam[i],
-                    last,
-                    subgradients[i],
-                    frames,
-                    numbers,
-                    targets,
-                    ways,
-                    between,
-                    edge_start,
-                    facet_start,
+                    kind, S, normals[i], Q[i * q_stride], lam[i], last, subgradients[i], tables
                 )
                 R[i] = rotation
                 subgradients[i] = s
