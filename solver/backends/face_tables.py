@@ -40,20 +40,19 @@ def face_tables(faces, keep, keep_integers):
         nothing = keep_integers(np.zeros(1, np.int32))
         frames, ways = keep(np.zeros((1, 3, 3))), keep(np.zeros((1, 3)))
         return FaceTables(frames, nothing, nothing, ways, nothing, 0, 0)
-    a = faces.arrays
-    lengths = np.stack([a.lengths, 0 * a.lengths, 0 * a.lengths], axis=1)
-    ends = np.tile(np.arange(len(a.points))[:, None], (1, 2))
+    lengths = np.stack([faces.lengths, 0 * faces.lengths, 0 * faces.lengths], axis=1)
+    ends = np.tile(np.arange(len(faces.points))[:, None], (1, 2))
     ends[faces.edge_start : faces.facet_start] = faces.edge_ends
     facets = slice(faces.facet_start, None)
-    ends[facets] = ends[a.targets[a.links[facets, 0]]]
-    starts = np.zeros((len(a.points), 1), int)
+    ends[facets] = ends[faces.targets[faces.links[facets, 0]]]
+    starts = np.zeros((len(faces.points), 1), int)
     starts[: faces.edge_start, 0] = faces.between_start
-    numbers = np.concatenate([a.vertices, a.links, ends, starts], axis=1)
+    numbers = np.concatenate([faces.vertices, faces.links, ends, starts], axis=1)
     return FaceTables(
-        keep(np.stack([a.points, a.axes, lengths], axis=1)),
+        keep(np.stack([faces.points, faces.axes, lengths], axis=1)),
         keep_integers(numbers.ravel().astype(np.int32)),
-        keep_integers(a.targets),
-        keep(a.ways),
+        keep_integers(faces.targets),
+        keep(faces.ways),
         keep_integers(faces.between),
         faces.edge_start,
         faces.facet_start,

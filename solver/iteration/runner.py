@@ -48,7 +48,7 @@ class Run:
 
     However it is sliced, the result is identical to that of `run`, bit for bit.
     The arguments are those of `run`. `reason` is None while it is not finished, then as in
-    `Result`.
+    `Result`; `seconds` is the time of the iterations so far.
 
     Raises
     ------
@@ -92,7 +92,7 @@ class Run:
         self._rule = self._new_rule()
         # not a bound method: a run would hold itself, and its memory, until cycles are looked for
         self._phase: Callable[[Any], None] = Run._local_step
-        self._seconds = 0.0
+        self.seconds = 0.0
         self._coarse_iterations = 0
         coarse = coarse_stylization(stylization)
         self._coarse = None if coarse is None else Run(coarse, MAX_ITERATIONS, TOLERANCE)
@@ -164,11 +164,6 @@ class Run:
             return self._coarse.energy
         return self.soft.energy or self._coarse_energy
 
-    @property
-    def seconds(self) -> float:
-        """Time of the iterations so far."""
-        return self._seconds
-
     def advance(self) -> None:
         """Do one phase: a local or a global step. The last one sets `reason`."""
         begin = time.perf_counter()
@@ -178,7 +173,7 @@ class Run:
                 self._leave(self._coarse)
         else:
             self._phase(self)
-        self._seconds += time.perf_counter() - begin
+        self.seconds += time.perf_counter() - begin
 
     def _leave(self, coarse: Run) -> None:
         """Begin on the mesh itself, from where the coarser one is."""
@@ -350,7 +345,7 @@ class Run:
         if hard is None:
             return None
         other = copy(self)
-        other.reason, other._seconds = None, 0.0
+        other.reason, other.seconds = None, 0.0
         other._begin_at_hard_end(hard, self._hard_end[1])
         return other
 
@@ -396,7 +391,7 @@ class Run:
         if self.stylization.is_limited:
             self.stylization.limit_cubeness(math.inf)
         energy = self.soft.energy if self.is_hardening else self.stylization.finish()
-        self._seconds += time.perf_counter() - begin
+        self.seconds += time.perf_counter() - begin
         return self._result(energy)
 
     def so_far(self) -> Result | None:
@@ -410,7 +405,7 @@ class Run:
     def _result(self, energy):
         begin = time.perf_counter()
         positions, rotations = self.placed()
-        seconds = self._seconds + time.perf_counter() - begin
+        seconds = self.seconds + time.perf_counter() - begin
         apart = None if self.reason in (None, "cancelled") else self._apart
         return Result(
             positions,

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..aliases import FloatArray
 from ..backends import local_step_class
-from ..coarse_to_fine.coarser import coarser_pose, coarser_style
+from ..coarse_to_fine.start import coarser_pose, coarser_style
 from ..contacts.riding import Riding
 from ..global_step.holds import Holds
 from ..inputs import instance, real_numbers

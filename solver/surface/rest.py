@@ -153,12 +153,7 @@ class RestMesh(Value):
     @property
     def cubic_shares(self) -> FloatArray:
         """(n,) factors of the cubeness: 0 in creases and sheets, more than 1 beside creases."""
-        return np.where(self.is_sheet, 0.0, self.normal_counts)
-
-    @property
-    def normal_counts(self) -> FloatArray:
-        """(n,) how much the `cubic_normals` count: not in creases, more beside them."""
-        return self._drawn[1]
+        return np.where(self.is_sheet, 0.0, self._drawn[1])
 
     @cached_property
     def weighing(self) -> FloatArray:
@@ -396,7 +391,8 @@ class RestMesh(Value):
             difference = x.take(j) - x.take(i)
             squares += difference * difference
         weighted = -2.0 * matrices.laplacian[is_upper] * squares
-        return self.topology.sum_parts_at(i, weighted)
+        component, count = self.topology.component, self.topology.component_count
+        return np.bincount(component[i], weighted, count)
 
     @cached_property
     def energy_terms(self) -> FloatArray:
