@@ -34,8 +34,7 @@ from ..styles.active_set import (
     SMALLEST_TURN,
     curvature_on_tangent,
 )
-from .engine import ti
-from .kernel_types import kernel_types, state_types
+from .engine import kernel_types, state_types, ti
 
 
 class Kind:

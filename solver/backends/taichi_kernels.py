@@ -20,9 +20,8 @@ from types import SimpleNamespace
 from typing import Any
 
 from ..algebra import nearer_to_orthogonal, times
-from .engine import ti
+from .engine import kernel_types, state_types, ti
 from .face_tables import FaceTables
-from .kernel_types import kernel_types, state_types
 from .taichi_active_set import Kind, covariance, rotation_near
 from .taichi_faces import rotation_on_faces
 from .taichi_lanes import make_local_step as in_lanes

@@ -13,8 +13,7 @@ last one has its rotation.
 
 from ..algebra import nearer_to_orthogonal, product, transposed
 from ..styles.active_set import MAX_STEPS
-from .engine import ti
-from .kernel_types import kernel_types
+from .engine import kernel_types, ti
 from .taichi_active_set import covariance, fit_and_cost, in_frame, step
 
 LANES = 4

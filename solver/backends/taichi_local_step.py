@@ -64,20 +64,20 @@ class TaichiLocalStep:
     def __init__(
         self, rest, lam, Q, options, form: Any = CUBE, normals=None, *, device="cpu", precision=None
     ):
-        runtime = taichi_runtime.start(device)
+        self._wanted = device
+        self.device, has_f64 = taichi_runtime.start(device)
         self._rest = rest
         normals = rest.normals if normals is None else normals
-        self._wanted, self.device = device, runtime.device
-        precision = precision or ("f64" if runtime.has_f64 else "f32")
+        precision = precision or ("f64" if has_f64 else "f32")
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
         # The newer LLVM of Quadrants makes vectors of a third of them only: there one vertex after
         # the other is as quick.
         is_worth_it = form.width == CUBE.width and len(rest.V) >= LANES_FROM
-        has_lanes = is_worth_it and runtime.device == "taichi-cpu"
+        has_lanes = is_worth_it and self.device == "taichi-cpu"
         self._kernels = _kernels(precision, form.width, has_lanes)
         self.precision, self.real = precision, real
-        self.arrays = arrays_for(runtime.device)
+        self.arrays = arrays_for(self.device)
         n = len(rest.V)
         lam = local_cubeness(rest.areas, normals, lam)
         self._options = options

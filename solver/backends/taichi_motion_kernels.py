@@ -10,8 +10,7 @@ To import this imports the engine. Sums and maxima are those of the chunks of
 
 from types import SimpleNamespace
 
-from .engine import ti
-from .kernel_types import kernel_types
+from .engine import kernel_types, ti
 
 
 def make_motion_kernels(real):

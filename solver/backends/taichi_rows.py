@@ -12,8 +12,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from .engine import ti
-from .kernel_types import kernel_types, state_types
+from .engine import kernel_types, state_types, ti
 from .taichi_active_set import Kind, covariance
 
 

@@ -6,7 +6,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from types import FunctionType
@@ -27,15 +26,6 @@ _our_device = None  # "cpu" or "gpu"
 _warm = set()  # kernels that have run
 
 
-@dataclass(frozen=True)
-class Runtime:
-    """A started engine."""
-
-    device: str
-    """such as "taichi-cpu", "taichi-cuda" or "quadrants-cpu" """
-    has_f64: bool
-
-
 def set_cache_folder(path: str) -> None:
     """Keep compiled kernels in this folder (str) from the next start on, not in the usual one."""
     global _cache_folder
@@ -44,7 +34,10 @@ def set_cache_folder(path: str) -> None:
 
 @alone
 def start(device):
-    """Start the engine on "cpu" or "gpu", unless it runs already, and return the Runtime.
+    """Start the engine on "cpu" or "gpu", unless it runs already.
+
+    Returns the name of the device, such as "taichi-cpu", "taichi-cuda" or "quadrants-cpu", and
+    whether it has 64 bit.
 
     A program that another add-on has started is used as it is: a second ``ti.init`` would destroy
     that add-on's fields.
@@ -69,7 +62,7 @@ def start(device):
         _our_program, _our_device = started_program(), device
     name = ti._lib.core.arch_name(ti.lang.impl.current_cfg().arch)
     shown = "cpu" if name in ("x64", "arm64") else name
-    return Runtime(f"{engine().package}-{shown}", name in _ARCHES_WITH_F64)
+    return f"{engine().package}-{shown}", name in _ARCHES_WITH_F64
 
 
 def warm_up(calls):

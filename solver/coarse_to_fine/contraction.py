@@ -5,7 +5,7 @@ import numpy as np
 
 from ..algebra import sums_by_group
 from ..global_step.multigrid import aggregates
-from ..mesh.triangles import distinct
+from ..mesh.edges import distinct
 from ..optional_packages import optional_package
 
 MOST_LEFT = 0.7

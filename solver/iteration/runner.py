@@ -25,9 +25,8 @@ from ..errors import CubicCraftError
 from ..hardening.hard_stylization import HardStylization
 from ..hardening.hardening import GIVEN_BACK, ROUNDS, is_hardened
 from ..inputs import instance, real_number, switch, whole_number
-from .energy import Energy
 from .from_below import FromBelow
-from .result import Reason, Result
+from .result import Energy, Reason, Result
 from .stop_rule import StopRule
 from .stylization import Stylization
 

@@ -24,9 +24,9 @@ from ..styles.style import Style
 from ..surface.symmetry import Mirror
 from ..values import Stored, described
 from .acceleration import Momentum
-from .energy import Energy
 from .options import SolverOptions
 from .pose import Pose, pins_moved
+from .result import Energy
 from .setup import Setup
 
 _FIRST_SOLVES = 3  # where a solve is approximate, the first one starts far from the solution

@@ -8,8 +8,8 @@ it is alone. The smaller sheets ride along with what they are linked to.
 
 import numpy as np
 
+from ..mesh.edges import Triangles
 from ..mesh.rest_measures import triangle_areas_and_normals
-from ..mesh.triangles import Triangles
 from .samples import extents
 from .thickness import outward_sign
 

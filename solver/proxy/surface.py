@@ -4,16 +4,19 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy.sparse as sp
 
 from ..aliases import FloatArray, IntArray
 from ..mesh.components import components
-from ..mesh.triangles import distinct_rows
+from ..mesh.edges import distinct_rows
 from ..mesh.unit_box import UnitBox, unit_box
-from ..mesh.vertex_order import vertex_order
 from .input_map import InputMap
 from .refinement import longest_edges, refine
 from .sheets import working_extent
 from .weld import weld
+
+REORDERED_FROM = 20_000
+"""vertices. Smaller meshes fit into the cache in any order."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +70,7 @@ def surface_of(V, F, options, faces=None) -> Surface:
     of_input = np.full(len(V), -1)
     of_input[used] = group
     input_map = InputMap(of_input, used[first], parents, rounds)
-    order = vertex_order(F, len(at))
+    order = _vertex_order(F, len(at))
     if order is not None:
         number = np.empty(len(order), dtype=np.int32)
         number[order] = np.arange(len(order), dtype=np.int32)
@@ -93,3 +96,23 @@ def _used_vertices(F, count):
         return used, F.copy()  # it may be the caller's
     number = np.cumsum(is_used, dtype=np.int32) - np.int32(1)
     return used, number[F]
+
+
+def _vertex_order(F, n):
+    """Return an order (n,) int of vertices with neighbors close to each other, or None to keep it.
+
+    The speed of an iteration depends on memory access to neighbors. Programs that subdivide append
+    the new vertices, far from the old ones. In the order of Cuthill and McKee (1969) the set-up,
+    the local step and the products with sparse matrices take half the time (400,000 vertices), and
+    an iteration a third less (25,000). Vertices of a component come one after the other.
+
+    `F`: (m,3) int.
+    """
+    if n < REORDERED_FROM:
+        return None
+    from scipy.sparse.csgraph import reverse_cuthill_mckee  # takes long to import
+
+    start, end = F.ravel(), F[:, [1, 2, 0]].ravel()
+    edges = sp.coo_matrix((np.ones(len(start), np.int8), (start, end)), shape=(n, n))
+    # a closed surface has each edge in both directions, and any order will do at a boundary
+    return reverse_cuthill_mckee(edges.tocsr(), symmetric_mode=True)

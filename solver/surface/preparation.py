@@ -10,11 +10,11 @@ from numpy.typing import ArrayLike
 from ..aliases import Faces
 from ..errors import CubicCraftError
 from ..inputs import instance, whole_numbers
+from ..mesh.edges import Triangles
 from ..mesh.mesh_checks import check_mesh, faces_of_triangles
 from ..mesh.rest_measures import areas_and_normals, cotangents
 from ..mesh.spokes_and_rims import spokes_and_rims
 from ..mesh.topology import topology
-from ..mesh.triangles import Triangles
 from ..proxy import Links, ProxyOptions, no_links, surface_of
 from ..proxy.cavities import links_outside
 from ..proxy.creases import cubic_shares, smoothness

@@ -17,11 +17,11 @@ from ..contacts.polygons import are_apart
 from ..inputs import real_numbers
 from ..limbs import Limbs, limbs_of_shape, with_coverings, with_hollows, with_plates, without_shells
 from ..limbs.covering import COVERING
+from ..mesh.edges import Triangles
 from ..mesh.face_graph import FaceGraph
 from ..mesh.rest_measures import areas_and_normals, triangle_areas_and_normals
 from ..mesh.spokes_and_rims import SpokesAndRims, spokes_and_rims
 from ..mesh.topology import Topology
-from ..mesh.triangles import Triangles
 from ..mesh.unit_box import UnitBox
 from ..proxy import PAPER, InputMap, Links, ProxyOptions, no_links
 from ..proxy.boxes import box_frames
