@@ -43,21 +43,11 @@ class _Arguments(NamedTuple):
 class TaichiLocalStep:
     """Rotations from positions, and the right-hand side of the global step from rotations.
 
-    `rest`, `lam`, `Q`, `options`, `form`, `normals`: as in `NumpyLocalStep`.
-    `precision`: by default f64 where the device has it.
-
-    Attributes
-    ----------
-    device : str
-        Such as "taichi-cpu".
-    resolution : float
-        As in `NumpyLocalStep`.
-    precision, real : str and dtype
-        The precision, "f64" or "f32", and NumPy's type for it.
-    arrays : HostArrays or DeviceArrays
-        Where the arrays of the run lie. On a GPU they stay there.
-    compile_seconds : float
-        Time spent compiling the kernels or loading them from the cache; 0 after the first use.
+    `rest`, `lam`, `Q`, `options`, `form`, `normals`, `resolution`: as in `NumpyLocalStep`.
+    `precision`: "f64" or "f32", by default f64 where the device has it. `device`: such as
+    "taichi-cpu". `arrays`: HostArrays or DeviceArrays, where the arrays of the run lie; on a GPU
+    they stay there. `compile_seconds`: to compile the kernels or to load them from the cache; 0
+    after the first use.
     """
 
     @alone

@@ -111,8 +111,8 @@ class Level:
 def aggregates(A):
     """Return disjoint groups of coupled unknowns: the number (n,) of each one's group.
 
-    A : (n,n) csr_matrix
-        Symmetric; only its pattern counts. What is coupled to nothing is a group of its own.
+    `A`: (n,n) csr_matrix, symmetric; only its pattern counts. What is coupled to nothing is a group
+    of its own.
     """
     members = _members(A)
     is_member = np.diff(members.indptr) > 0

@@ -106,8 +106,7 @@ def spokes_and_rims(V, F, C, edges=None):
     hence entries are only summed for pairs of vertices, and the diagonal follows. An edge from a
     vertex to itself drops out; its length is zero.
 
-    edges : Edges, optional
-        Those of F; without them they are searched for.
+    `edges`: Edges of F, optional; without them they are searched for.
     """
     if edges is None:
         edges = Edges(F, len(V))

@@ -40,9 +40,8 @@ class Surface:
 def surface_of(V, F, options, faces=None) -> Surface:
     """Return the Surface of positions V (N,3), any unit, and triangles F (m,3).
 
-    options : ProxyOptions
-    faces : (m,) int array, optional
-        The face of the artist's mesh that each triangle is a piece of.
+    `options`: ProxyOptions. `faces`: (m,) int, optional, the face of the artist's mesh that each
+    triangle is a piece of.
     """
     used, F = _used_vertices(F, len(V))
     box = unit_box(V[used])

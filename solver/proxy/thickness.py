@@ -105,9 +105,8 @@ def _opposite(V, normals, part, chosen, points, inexactness):
 def _shrink(place, normals, chosen, points, end, radius, inexactness):
     """Shrink balls at chosen vertices (c,) until no other point is inside, in place.
 
-    end : (c,) int array
-        The vertex that each ball ends at, -1 while there is none on an opposite side.
-    radius : (c,) array
+    `end`: (c,) int, the vertex that each ball ends at, -1 while there is none on an opposite side.
+    `radius`: (c,).
     """
     nearest_of = Nearest(place[points])
     p, n = place[chosen], normals[chosen]
