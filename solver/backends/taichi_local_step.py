@@ -2,7 +2,8 @@
 """The local step in Taichi, on the CPU or a GPU. See `NumpyLocalStep` for the interface."""
 
 from functools import cache, partial
-from typing import Any, NamedTuple
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -20,24 +21,6 @@ from .taichi_runtime import warm_up
 LANES_FROM = 20_000
 """vertices from which the kernel of `taichi_lanes.py` pays: to compile it takes three times as
 long, once on each machine, and then an iteration a twentieth less"""
-
-
-class _Arguments(NamedTuple):
-    """What the kernel `local_step` is called with between the positions and the `face_tables`."""
-
-    indptr: Any
-    indices: Any
-    gather: Any
-    weights: Any
-    normals: Any
-    area_scale: Any
-    lam: Any
-    Q: Any
-    q_stride: int
-    R: Any
-    subgradients: Any
-    energies: Any
-    certified: Any
 
 
 class TaichiLocalStep:
@@ -82,12 +65,17 @@ class TaichiLocalStep:
             self._tables = face_tables(form.faces, self._keep, self.arrays.keep)
         self._scatter = self._keep(rest.matrices.scatter)
         self._rhs = np.empty((n, 3), real)
+        of = self._arguments
+        self._of_rhs = of.indptr, of.indices, self._scatter, of.R, self._rhs
         self._rows = self._make_rows()
         self._sum_on_device = None
         self.compile_seconds = warm_up(
             [
-                (self._kernels.local_step, (self._rhs, *self._arguments, *self._tables)),
-                (self._kernels.right_hand_side, self._right_hand_side_arguments()),
+                (
+                    self._kernels.local_step,
+                    (self._rhs, *vars(self._arguments).values(), *self._tables),
+                ),
+                (self._kernels.right_hand_side, self._of_rhs),
             ]
         )
 
@@ -97,7 +85,8 @@ class TaichiLocalStep:
     def _make_arguments(self, Q):
         m, rest, keep = self._rest.matrices, self._rest, self._keep
         identity = np.tile(np.eye(3), (len(rest.V), 1, 1))
-        return _Arguments(
+        # between the positions and the `face_tables`, in the order of the kernel `local_step`
+        return SimpleNamespace(
             indptr=self.arrays.keep(m.indptr),
             indices=self.arrays.keep(m.indices),
             gather=keep(m.gather),
@@ -171,7 +160,7 @@ class TaichiLocalStep:
         self.start_device()
         if not self.arrays.is_resident:
             U = np.ascontiguousarray(U, dtype=self.real)
-        self._kernels.local_step(U, *self._arguments, *self._tables)
+        self._kernels.local_step(U, *vars(self._arguments).values(), *self._tables)
         if self._sum_on_device is not None:
             return self._summed(U, self._sum_on_device)
         rows = self._uncertified()
@@ -213,7 +202,7 @@ class TaichiLocalStep:
     def right_hand_side(self):
         """Return the right-hand side (n,3) of L U = rhs for the present rotations."""
         self.start_device()
-        self._kernels.right_hand_side(*self._right_hand_side_arguments())
+        self._kernels.right_hand_side(*self._of_rhs)
         return self._rhs.astype(np.float64, copy=False)
 
     def start_device(self):
@@ -228,15 +217,6 @@ class TaichiLocalStep:
         """Return what the kernel `residual` of `taichi_motion_kernels.py` is called with."""
         of = self._arguments
         return of.indptr, of.indices, self._scatter, of.weights, of.R, point, scale, B
-
-    def _right_hand_side_arguments(self):
-        return (
-            self._arguments.indptr,
-            self._arguments.indices,
-            self._scatter,
-            self._arguments.R,
-            self._rhs,
-        )
 
 
 class HostRows:

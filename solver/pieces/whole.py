@@ -142,9 +142,8 @@ class Whole:
     @cached_property
     def partners(self) -> list[IntArray]:
         """For each of `mirrored`, the partner (N,) of each vertex of the whole."""
-        found = []
-        for bit in range(len(self.added)):
-            found.append(self._numbers[self._element ^ 1 << bit, self._source])
+        bits = range(len(self.added))
+        found = [self._numbers[self._element ^ 1 << bit, self._source] for bit in bits]
         for mirror in self.own_partners:
             partner = np.append(mirror.partner, NO_PARTNER)[self._source]
             there = self._numbers[self._element, np.maximum(partner, 0)]

@@ -48,8 +48,9 @@ def surface_of(V, F, options, faces=None) -> Surface:
     at = box.to_unit(V[used])
     group, first = np.arange(len(used)), np.arange(len(used))
     count, part = components(F, len(at)) if options.together or options.refine else (0, None)
-    if options.together:
-        group, first, welded = _welded(at, F, part)
+    welding = weld(at, F, part) if options.together else None
+    if welding and len(welding[2]):  # of a mesh that nothing would be left of, nothing is welded
+        group, first, welded = welding
         if faces is not None and len(welded) < len(F):
             faces = faces[distinct_rows(group[F])]
         F = welded
@@ -62,7 +63,7 @@ def surface_of(V, F, options, faces=None) -> Surface:
     parents, rounds = np.empty((0, 2), np.int64), np.zeros(1, np.int64)
     unrefined = pieces = None
     if options.refine:
-        unrefined, bound = F, longest_edges(at, F, part)[part]
+        unrefined, bound = F, longest_edges(at, part)[part]
         at, F, parents, rounds, pieces = refine(at, F, bound, count)
     if not len(parents):
         unrefined = pieces = None
@@ -76,14 +77,6 @@ def surface_of(V, F, options, faces=None) -> Surface:
         input_map, at, F = replace(input_map, order=order), at[order], number[F]
         unrefined = None if unrefined is None else number[unrefined]
     return Surface(input_map, box, at, F, unrefined, pieces, faces)
-
-
-def _welded(V, F, part):
-    """Weld, unless nothing would be left of the triangles."""
-    group, first, triangles = weld(V, F, part)
-    if not len(triangles):
-        return np.arange(len(V)), np.arange(len(V)), F
-    return group, first, triangles
 
 
 def _used_vertices(F, count):
