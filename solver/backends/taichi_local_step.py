@@ -131,18 +131,10 @@ class TaichiLocalStep:
         self._sums = np.zeros((len(self._group_component), 3), self.real)
         # Taken from each vertex. Taken from their sum, which is as large as that of all squared
         # edges, the rounding of 32 bit would hide how the energy falls: momentum and end need it.
-        at_rest = keep(setup.rest.energy_terms.astype(self.real))
-        weight = keep(self._normal_weight.astype(self.real))
-        arguments = (
-            keep(topology.chunks[0]),
-            self._arguments.energies,
-            at_rest,
-            weight,
-            self._arguments.certified,
-            keep(groups),
-            keep(np.zeros((len(topology.chunks[1]), 3), self.real)),
-            self._sums,
-        )
+        at_rest, weight = self._keep(setup.rest.energy_terms), self._keep(self._normal_weight)
+        parts = keep(np.zeros((len(topology.chunks[1]), 3), self.real))
+        of_vertices = self._arguments.energies, at_rest, weight, self._arguments.certified
+        arguments = keep(topology.chunks[0]), *of_vertices, keep(groups), parts, self._sums
         kernel = motion_kernels(self.precision).sum_energies
         self._sum_on_device = partial(kernel, *arguments)
         motion = TaichiMotion(setup, self, U, constraints)

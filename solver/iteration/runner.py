@@ -405,17 +405,9 @@ class Run:
         begin = time.perf_counter()
         positions, rotations = self.placed()
         seconds = self.seconds + time.perf_counter() - begin
-        apart = None if self.reason in (None, "cancelled") else self._apart
-        return Result(
-            positions,
-            rotations,
-            energy,
-            self.soft.iterations,
-            self.reason or "cancelled",
-            self.soft.device,
-            self.soft.compile_seconds,
-            seconds,
-            None if apart is None else apart.crossings,
-            None if apart is None else apart.pressed,
-            None if apart is None else apart.vertices,
-        )
+        apart, reason = self._apart, self.reason or "cancelled"
+        found = None, None, None
+        if apart is not None and reason != "cancelled":
+            found = apart.crossings, apart.pressed, apart.vertices
+        soft = self.soft.iterations, reason, self.soft.device, self.soft.compile_seconds
+        return Result(positions, rotations, energy, *soft, seconds, *found)

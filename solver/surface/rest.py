@@ -218,18 +218,6 @@ class RestMesh(Value):
         return found[nearest]
 
     @cached_property
-    def detail_radii(self) -> FloatArray:
-        """(n,) radius over which normals are averaged, so that details have none of their own."""
-        parts, component = self.topology.part, self.topology.component
-        return details.radii(
-            self.options.detail,
-            extents(self.V, component)[component],
-            self.thickness,
-            extents(self.V, parts)[parts],
-            np.bincount(parts)[parts] == np.bincount(component)[component],
-        )
-
-    @cached_property
     def face_graph(self) -> FaceGraph:
         """The FaceGraph of the surface."""
         return FaceGraph(self.V, self.F)
@@ -247,9 +235,12 @@ class RestMesh(Value):
             return graph.normals
         crease = np.where(self.is_flat, self.smoothness, 1.0)
         lower, upper = (ends[graph.edge] for ends in (graph.edges.lower, graph.edges.upper))
-        radius = self.detail_radii[self.F].mean(axis=1)
+        part, component = self.topology.part, self.topology.component
+        sizes = extents(self.V, component)[component], self.thickness, extents(self.V, part)[part]
+        is_alone = np.bincount(part)[part] == np.bincount(component)[component]
+        radius = details.radii(self.options.detail, *sizes, is_alone)[self.F].mean(axis=1)
         coupling = np.maximum(crease[lower], crease[upper])
-        outward, largest = self.outward[self.F[:, 0], 0], np.bincount(self.topology.part).max()
+        outward, largest = self.outward[self.F[:, 0], 0], np.bincount(part).max()
         return details.smoothed(graph, radius, coupling, outward, largest_part=largest)
 
     @cached_property
