@@ -45,10 +45,7 @@ def __getattr__(name):
 
 
 def kernel_types(real):
-    """Return the types of vectors and matrices, and of arrays of one dimension.
-
-    `real`: ti.f64 or ti.f32. Returns vec3, mat3, scalars, integers, vectors, matrices.
-    """
+    """Return vec3, mat3, and the types of arrays of reals, integers, vec3 and mat3."""
     ti = import_engine()
     vec3, mat3 = ti.types.vector(3, real), ti.types.matrix(3, 3, real)
     return vec3, mat3, *(ti.types.ndarray(dtype=t, ndim=1) for t in (real, ti.i32, vec3, mat3))

@@ -85,10 +85,7 @@ def warm_up(calls):
 
 
 def _gpu_arch(ti):
-    """Return the engine's arch of the best GPU: CUDA, Metal or Vulkan.
-
-    Raises CubicCraftError: there is none.
-    """
+    """Return CUDA, Metal or Vulkan, the best that there is, or raise a CubicCraftError."""
     core = ti._lib.core
     for arch, is_there in ((ti.cuda, core.with_cuda), (ti.metal, core.with_metal)):
         if is_there():

@@ -194,10 +194,7 @@ def _is_small(topology):
 
 
 def _solver(L, is_held):
-    """Return a function that maps B (n,3) and X (n,3) to the solution of L X = B.
-
-    The rows of X that are held stay as they are.
-    """
+    """Return a function from B and X (n,3) to the solution of L X = B with the held rows of X."""
     held = np.flatnonzero(is_held)
     coupling = L[:, held]
     coupled = np.flatnonzero(np.diff(coupling.indptr))  # few: most rows have no held neighbor

@@ -172,10 +172,7 @@ class Pattern:
         return sums[: len(self._lower)]
 
     def filled(self, above, below):
-        """Return values (nnz,...) from those above and below the diagonal, (e,...) at each edge.
-
-        The rows sum to zero.
-        """
+        """Return values (nnz,...) from those off the diagonal, (e,...); rows sum to 0."""
         return self._placed(above, below, -self._row_sums(above, below))
 
     def _placed(self, above, below, diagonal):

@@ -78,10 +78,7 @@ def _is_even_itself(piece: Piece, mirror: Mirror):
 
 
 def common_planes(pieces: Sequence[Piece], rest: "RestMesh") -> tuple[Mirror, ...]:
-    """Return the planes about which what is linked is symmetric at rest, each with its vertices.
-
-    `rest`: of all of them.
-    """
+    """Return the planes about which what is linked in `rest` is symmetric."""
     of_vertex = np.repeat(np.arange(len(pieces)), [piece.solved for piece in pieces])
     figure = _figures(rest, of_vertex, len(pieces))
     area = np.bincount(of_vertex[rest.used], rest.areas * ~rest.is_sheet, len(pieces))

@@ -17,10 +17,7 @@ from .polytope import Polytope
 
 @dataclass(frozen=True)
 class Faces:
-    """The tables of several bodies: a row per face (k), and per link from a face to one next to it.
-
-    `bodies`: sequence of Polytope.
-    """
+    """The tables of several bodies: a row per face (k), and per link to one next to it (l)."""
 
     points: FloatArray
     """(k,3) the vertex, the first end of the edge, the foot point of the facet"""

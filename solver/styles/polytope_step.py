@@ -11,10 +11,7 @@ NEAREST_FACET = 0.9
 
 
 def polytopes(forms, body):
-    """Return the form of local problems.
-
-    `forms`: list of Polytope, without any, it is the cube. `body`: (n,) int, which of several.
-    """
+    """Return the form of local problems: Polytopes by `body` (n,) int or, without any, the cube."""
     return Polytopes(faces_of(forms), body) if forms else CUBE
 
 

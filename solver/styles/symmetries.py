@@ -23,10 +23,7 @@ PART = 2_000_000
 
 @lru_cache(maxsize=KEPT)
 def symmetries(body: Polytope):
-    """Return the rotations (k,3,3) that map a body to itself: a group, the identity first.
-
-    The array is shared and cannot be written to.
-    """
+    """Return the rotations (k,3,3) that map a body to itself, the first is 1; read-only."""
     found = _maps(body.normals, body.offsets / body.offsets.max())
     traces = np.trace(found, axis1=1, axis2=2)
     others = np.delete(found, traces.argmax(), axis=0)
@@ -36,10 +33,7 @@ def symmetries(body: Polytope):
 
 
 def nearest_to_identity(Q, body: Polytope):
-    """Return S Q (3,3) nearest to the identity, for rotations Q into the frame of a body.
-
-    S is one of the body's symmetries.
-    """
+    """Return S Q (3,3) nearest to the identity, for a rotation Q and the symmetries S of a body."""
     same = symmetries(body) @ Q
     return same[np.argmax(np.trace(same, axis1=1, axis2=2))]
 
