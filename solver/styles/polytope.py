@@ -101,7 +101,7 @@ class Polytope:
         return replace(self, offsets=factor * self.offsets, vertices=factor * self.vertices)
 
     def turned(self, turn: FloatArray) -> Polytope:
-        """Return the body whose cost at x is that of this one at ``turn x``, (3,3), also mirrored."""
+        """Return the body whose cost at x is that of this one at ``turn x``; it may mirror."""
         return replace(self, normals=self.normals @ turn, vertices=self.vertices @ turn)
 
     def cost(self, x: FloatArray) -> FloatArray:
