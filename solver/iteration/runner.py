@@ -126,11 +126,6 @@ class Run:
         return self._round > 0
 
     @property
-    def is_hardening(self) -> bool:
-        """Whether the soft shape is done, and its sides become flat."""
-        return self._soft is not None
-
-    @property
     def soft(self) -> Stylization:
         """The Stylization of the soft shape: at its end, once the sides become flat."""
         return self._soft or self.stylization
@@ -184,7 +179,9 @@ class Run:
 
     def _new_rule(self) -> StopRule:
         state = self.stylization
-        may_swing = not state.is_coarse and state.rest.topology.has_linked_parts
+        topology = state.rest.topology
+        has_linked_parts = bool(topology.part.max() >= topology.component_count)
+        may_swing = not state.is_coarse and has_linked_parts
         return StopRule(self._tolerance, state.resolution, may_swing)
 
     def _local_step(self):
@@ -389,7 +386,7 @@ class Run:
             self._leave(self._coarse)
         if self.stylization.is_limited:
             self.stylization.limit_cubeness(math.inf)
-        energy = self.soft.energy if self.is_hardening else self.stylization.finish()
+        energy = self._soft.energy if self._soft is not None else self.stylization.finish()
         self.seconds += time.perf_counter() - begin
         return self._result(energy)
 

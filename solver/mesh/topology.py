@@ -58,11 +58,6 @@ class Topology(Value):
         """Number of vertices of the largest component, which determines the difficulty."""
         return int(np.bincount(self.component).max())
 
-    @cached_property
-    def has_linked_parts(self):
-        """Whether a component has more than one part."""
-        return bool(self.part.max() >= self.component_count)
-
     def sum_parts(self, values):
         """Sum values (n,) or (n,k) over each component, to (component_count,) or with k columns."""
         if self.component_count == 1:
