@@ -6,9 +6,6 @@ that call them. `kind` is the `Kind` of numbers that they compute with; the mask
 are numbers here, zero or one, to multiply by.
 """
 
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
-
 from ..algebra import (
     adjugate,
     axial,

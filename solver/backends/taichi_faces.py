@@ -5,9 +5,6 @@ To import this imports the engine. These functions are compiled into the kernels
 that call them. `tables` are `FaceTables`, those of all faces.
 """
 
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
-
 from ..algebra import axial, cross, dot, outer, product, times, trace, transposed_times, turn
 from ..styles.active_set import MAX_STEPS
 from ..styles.polytope_step import NEAREST_FACET

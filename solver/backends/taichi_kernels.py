@@ -13,9 +13,6 @@ small algebra is that of `algebra.py`, on entries; what is left are vectors and 
 loop over neighbors could end early, as that of `covariance`.
 """
 
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
-
 from types import SimpleNamespace
 from typing import Any
 

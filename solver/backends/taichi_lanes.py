@@ -8,9 +8,6 @@ computes both ways of each branch, so that it pays for few and short ones; all l
 last one has its rotation.
 """
 
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
-
 from ..algebra import nearer_to_orthogonal, product, transposed
 from ..styles.active_set import MAX_STEPS
 from .engine import kernel_types, ti

@@ -5,9 +5,6 @@ To import this imports the engine. Sums and maxima are those of the chunks of
 `Topology` and then of its groups, each in a fixed order; the few of the groups go to NumPy.
 """
 
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
-
 from types import SimpleNamespace
 
 from .engine import kernel_types, ti

@@ -4,9 +4,6 @@
 To import this imports the engine.
 """
 
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
-
 from functools import cache
 from types import SimpleNamespace
 
