@@ -18,14 +18,7 @@ MANY = 32
 
 @ti.func
 def rotation_on_faces(
-    kind: ti.template(),
-    S,
-    normal,
-    Q,
-    cubeness,
-    last,
-    last_state,
-    tables: ti.template(),
+    kind: ti.template(), S, normal, Q, cubeness, last, last_state, tables: ti.template()
 ):
     """Return as `rotation_near`, with the state (4,) in place of s."""
     R, s = last, kind.vec3(last_state[0], last_state[1], last_state[2])
