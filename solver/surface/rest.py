@@ -383,7 +383,7 @@ class RestMesh(Value):
             squares += difference * difference
         weighted = -2.0 * matrices.laplacian[is_upper] * squares
         component, count = self.topology.component, self.topology.component_count
-        return np.bincount(component[i], weighted, count)
+        return np.asarray(np.bincount(component[i], weighted, count), dtype=np.float64)
 
     @cached_property
     def energy_terms(self) -> FloatArray:
