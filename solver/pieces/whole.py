@@ -142,10 +142,9 @@ class Whole:
     @cached_property
     def partners(self) -> list[IntArray]:
         """For each of `mirrored`, the partner (N,) of each vertex of the whole."""
-        bits = range(len(self.added))
-        found: list[IntArray] = [
-            self._numbers[self._element ^ 1 << bit, self._source] for bit in bits
-        ]
+        found = []
+        for bit in range(len(self.added)):
+            found.append(self._numbers[self._element ^ 1 << bit, self._source])
         for mirror in self.own_partners:
             partner = np.append(mirror.partner, NO_PARTNER)[self._source]
             there = self._numbers[self._element, np.maximum(partner, 0)]
