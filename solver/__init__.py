@@ -34,11 +34,11 @@ if TYPE_CHECKING:
     from .frames.steadiness import Frames as Frames
     from .frames.steadiness import frame_of as frame_of
     from .frames.steadiness import least_width as least_width
-    from .iteration.energy import Energy as Energy
     from .iteration.loading import loading_steps as loading_steps
     from .iteration.options import SolverOptions as SolverOptions
     from .iteration.pose import Pose as Pose
     from .iteration.progress import Progress as Progress
+    from .iteration.result import Energy as Energy
     from .iteration.result import Result as Result
     from .iteration.runner import Run as Run
     from .iteration.setup import Setup as Setup
@@ -84,12 +84,11 @@ else:
         "facets.low_poly": "LowPoly low_poly",
         "frames.sequence": "FrameSequence SequenceState",
         "frames.steadiness": "MOST_JUMPS Frames frame_of least_width",
-        "iteration.energy": "Energy",
         "iteration.loading": "loading_steps",
         "iteration.options": "SolverOptions",
         "iteration.pose": "Pose",
         "iteration.progress": "Progress",
-        "iteration.result": "Result",
+        "iteration.result": "Energy Result",
         "iteration.runner": "Run",
         "iteration.setup": "Setup",
         "iteration.stop_rule": "StopRule",

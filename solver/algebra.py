@@ -47,10 +47,7 @@ def smoothstep(x, start, end):
 
 
 def sums_by_group(vectors, group, count=0):
-    """Return the sums (count,d) of vectors (k,d) by their group (k,) int, for NumPy.
-
-    `count`: of the groups; at least up to the last one.
-    """
+    """Return the sums (count or more,d) of vectors (k,d) by their group (k,) int, for NumPy."""
     return np.stack([np.bincount(group, x, count) for x in vectors.T], axis=1)
 
 

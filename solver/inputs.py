@@ -6,6 +6,7 @@ quotes, and any text as true.
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -22,13 +23,10 @@ _REAL = "biuf"  # NumPy's kinds: boolean, integers and floating point
 def real_numbers(values: ArrayLike, name: str) -> FloatArray:
     """Return an array of float64, of any shape."""
     found = array_of(values, name)
-    if found.dtype.kind == "O":  # such as fractions; NumPy takes None for NaN
-        try:
-            if None in found.ravel().tolist():
-                raise TypeError
+    # such as fractions; NumPy takes None for NaN
+    if found.dtype.kind == "O" and None not in found.ravel().tolist():
+        with suppress(TypeError, ValueError):
             found = found.astype(np.float64)
-        except (TypeError, ValueError):
-            raise CubicCraftError(f"{name} must be real numbers, not {_kind(values)}") from None
     if found.dtype.kind not in _REAL:
         raise CubicCraftError(f"{name} must be real numbers, not {_kind(values)}")
     return np.asarray(found, dtype=np.float64)

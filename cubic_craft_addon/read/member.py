@@ -16,11 +16,11 @@ import numpy as np
 
 from ...solver import CubicCraftError
 from ...solver.mesh.mesh_checks import check_mesh
-from ...solver.pieces.own_symmetry import with_own_symmetry
 from ...solver.pieces.piece import Piece
 from ...solver.pieces.placement import Placement
 from ...solver.pieces.reach import grown, rest_weights
 from ...solver.pieces.shape import Shape
+from ...solver.pieces.symmetry import with_own_symmetry
 from ...solver.surface.symmetry import LEAST_MATCHING
 from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements

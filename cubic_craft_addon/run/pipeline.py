@@ -16,9 +16,8 @@ import bpy
 import numpy as np
 
 from ... import solver
-from ...solver.pieces.piece import parts_of
+from ...solver.pieces.piece import is_stiff, parts_of
 from ...solver.pieces.problem import Problem, join_pieces
-from ...solver.pieces.stiff_cage import is_stiff
 from .. import mesh_bridge
 from ..environment.kernel_cache import use_extension_folder
 from ..read.member import Member, placed

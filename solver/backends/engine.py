@@ -44,6 +44,20 @@ def __getattr__(name):
     return import_engine()
 
 
+def kernel_types(real):
+    """Return vec3, mat3, and the types of arrays of reals, integers, vec3 and mat3."""
+    ti = import_engine()
+    vec3, mat3 = ti.types.vector(3, real), ti.types.matrix(3, 3, real)
+    return vec3, mat3, *(ti.types.ndarray(dtype=t, ndim=1) for t in (real, ti.i32, vec3, mat3))
+
+
+def state_types(real, width):
+    """Return the types of a vertex's state, a vector of that width, and of an array of them."""
+    ti = import_engine()
+    state = ti.types.vector(width, real)
+    return state, ti.types.ndarray(dtype=state, ndim=1)
+
+
 @contextlib.contextmanager
 def environment(name, value):
     """Set an environment variable for a time."""

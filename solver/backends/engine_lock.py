@@ -41,10 +41,7 @@ def is_forked():
 
 
 def check_not_forked():
-    """Check that the engine's threads are there.
-
-    Raises ForkedError: they stayed in the process that this one was forked from.
-    """
+    """Raise a ForkedError if the engine's threads stayed in the process that this is a fork of."""
     if _is_forked:
         raise ForkedError(
             f"{engine().name} cannot be used in a process that was forked after it had started;"

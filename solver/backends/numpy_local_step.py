@@ -99,10 +99,7 @@ class NumpyLocalStep:
 
 
 def area_scale(areas):
-    """Return what the local problem of each vertex is divided by, (n,): its area.
-
-    Vertices without area have no cubic term, and any positive number will do.
-    """
+    """Return the areas (n,), which local problems are divided by; 1 where there is none."""
     return np.where(areas > SMALLEST_AREA, areas, 1.0)
 
 

@@ -6,9 +6,6 @@ that call them. `kind` is the `Kind` of numbers that they compute with; the mask
 are numbers here, zero or one, to multiply by.
 """
 
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
-
 from ..algebra import (
     adjugate,
     axial,
@@ -34,8 +31,7 @@ from ..styles.active_set import (
     SMALLEST_TURN,
     curvature_on_tangent,
 )
-from .engine import ti
-from .kernel_types import kernel_types, state_types
+from .engine import kernel_types, state_types, ti
 
 
 class Kind:
@@ -49,6 +45,34 @@ class Kind:
         self.vec3, self.mat3, *_ = kernel_types(real)
         self.vec4, _ = state_types(real, 4)
         self.tolerances = DOUBLE if real == ti.f64 else SINGLE
+
+
+@ti.func
+def covariance(
+    kind: ti.template(),
+    i,
+    U: ti.template(),
+    indptr: ti.template(),
+    indices: ti.template(),
+    gather: ti.template(),
+    weights: ti.template(),
+):
+    """Return S_i of `spokes_and_rims.py`, and sum w |d|^2 over the edges d of vertex i.
+
+    The loop over neighbors could end early, for an index that never comes: else LLVM makes a vector
+    loop of it, which gains nothing with six neighbors and takes as long to load as all the rest.
+    """
+    here = U[i]
+    S = kind.mat3(0.0)
+    quadratic = kind.real(0.0)
+    for entry in range(indptr[i], indptr[i + 1]):
+        j = indices[entry]
+        if j < 0:
+            break
+        edge = U[j] - here
+        S += kind.mat3(ti.static(outer(*gather[entry], *edge)))
+        quadratic += weights[entry] * ti.static([dot(*edge, *edge)])[0]
+    return S, quadratic
 
 
 @ti.func

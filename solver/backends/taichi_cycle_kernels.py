@@ -5,9 +5,6 @@ To import this imports the engine. Vectors have a fourth, unused coordinate:
 four of them are read at once, which takes half the time of three. Sums run in a fixed order.
 """
 
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
-
 from functools import cache
 from types import SimpleNamespace
 

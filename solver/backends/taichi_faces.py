@@ -2,11 +2,8 @@
 """The local problem of one vertex on the faces of a polytope, in Taichi, as `Polytopes` in NumPy.
 
 To import this imports the engine. These functions are compiled into the kernels
-that call them. The tables of all faces are given as `face_tables` returns them.
+that call them. `tables` are `FaceTables`, those of all faces.
 """
-
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
 
 from ..algebra import axial, cross, dot, outer, product, times, trace, transposed_times, turn
 from ..styles.active_set import MAX_STEPS
@@ -21,20 +18,7 @@ MANY = 32
 
 @ti.func
 def rotation_on_faces(
-    kind: ti.template(),
-    S,
-    normal,
-    Q,
-    cubeness,
-    last,
-    last_state,
-    frames: ti.template(),
-    numbers: ti.template(),
-    targets: ti.template(),
-    ways: ti.template(),
-    between: ti.template(),
-    edge_start,
-    facet_start,
+    kind: ti.template(), S, normal, Q, cubeness, last, last_state, tables: ti.template()
 ):
     """Return as `rotation_near`, with the state (4,) in place of s."""
     R, s = last, kind.vec3(last_state[0], last_state[1], last_state[2])
@@ -44,13 +28,14 @@ def rotation_on_faces(
     y = kind.vec3(ti.static(times(*R, *normal)))
     x = kind.vec3(ti.static(times(*Q, *y)))
     last_fit = ti.static([trace(*G)])[0]
-    last_cost, _ = costliest(kind, x, last_face, frames, numbers, targets)
+    last_cost, _ = costliest(kind, x, last_face, tables)
     is_done, is_good = False, True
     step = 0
     while step < MAX_STEPS and is_good and not is_done:
         step += 1
-        axis = row(kind, frames[face], 1)
-        number = ti.cast(face >= edge_start, ti.i32) + ti.cast(face >= facet_start, ti.i32)
+        axis = row(kind, tables.frames[face], 1)
+        number = ti.cast(face >= tables.edge_start, ti.i32)
+        number += ti.cast(face >= tables.facet_start, ti.i32)
         q, v, is_done, is_good = turn_on_face(kind, G, x, y, s, axis, number, Q, cubeness)
         if is_good:
             scale = 2 / (q * q + ti.static([dot(*v, *v)])[0])
@@ -62,24 +47,18 @@ def rotation_on_faces(
             if cubeness > 0:
                 is_kept = True
                 if number == 0:
-                    s, face, is_kept = from_vertex(
-                        kind, x, s, face, frames, numbers, targets, between, edge_start, facet_start
-                    )
+                    s, face, is_kept = from_vertex(kind, x, s, face, tables)
                 else:
                     moment = kind.vec3(ti.static(axial(*G)))
-                    aside, along = forces(kind, moment, y, frames[face], Q, cubeness)
+                    aside, along = forces(kind, moment, y, tables.frames[face], Q, cubeness)
                     if number == 1:
-                        s, face, is_kept = from_edge(
-                            kind, x, along, face, frames, numbers, targets, ways
-                        )
+                        s, face, is_kept = from_edge(kind, x, along, face, tables)
                     else:
-                        s, face, is_kept = from_facet(
-                            kind, aside, face, frames, numbers, targets, ways
-                        )
+                        s, face, is_kept = from_facet(kind, aside, face, tables)
                 is_done = is_done and is_kept
     is_done = is_done and is_good
     fit = ti.static([trace(*G)])[0]
-    cost, _ = costliest(kind, x, face, frames, numbers, targets)
+    cost, _ = costliest(kind, x, face, tables)
     if not is_done or cubeness * cost - fit > cubeness * last_cost - last_fit:
         R, fit, cost, face = last, last_fit, last_cost, last_face
         s = kind.vec3(last_state[0], last_state[1], last_state[2])
@@ -124,18 +103,12 @@ def row(kind: ti.template(), matrix, k: ti.template()):
 
 
 @ti.func
-def costliest(
-    kind: ti.template(),
-    x,
-    face,
-    frames: ti.template(),
-    numbers: ti.template(),
-    targets: ti.template(),
-):
+def costliest(kind: ti.template(), x, face, tables: ti.template()):
     """Return the cost at x, and the vertex of the face's body that has it.
 
     Of many vertices not all are looked at: from one to a neighbor that costs more leads there.
     """
+    frames, numbers = ti.static((tables.frames, tables.numbers))
     best, last = numbers[NUMBERS * face], numbers[NUMBERS * face + 1]
     is_climb = last - best > MANY
     if is_climb:
@@ -146,7 +119,7 @@ def costliest(
         while present != best:
             present = best
             for link in range(numbers[NUMBERS * present + 2], numbers[NUMBERS * present + 3]):
-                edge = NUMBERS * targets[link]
+                edge = NUMBERS * tables.targets[link]
                 vertex = numbers[edge + 4] + numbers[edge + 5] - present
                 other = row(kind, frames[vertex], 0).dot(x)
                 if other > cost:
@@ -160,46 +133,29 @@ def costliest(
 
 
 @ti.func
-def from_vertex(
-    kind: ti.template(),
-    x,
-    s,
-    face,
-    frames: ti.template(),
-    numbers: ti.template(),
-    targets: ti.template(),
-    between: ti.template(),
-    edge_start,
-    facet_start,
-):
+def from_vertex(kind: ti.template(), x, s, face, tables: ti.template()):
     """Return s, its face, and whether it may stay: at the vertex that costs most."""
-    _, best = costliest(kind, x, face, frames, numbers, targets)
+    frames, numbers = ti.static((tables.frames, tables.numbers))
+    _, best = costliest(kind, x, face, tables)
     way = row(kind, frames[best], 0) - row(kind, frames[face], 0)
     is_kept = way.dot(x) <= kind.real(kind.tolerances.slack) * way.norm()
     if not is_kept:
         number = NUMBERS * face
-        face = between[numbers[number + 6] + best - numbers[number]]
-        if face >= facet_start and row(kind, frames[face], 1).dot(x) < kind.real(NEAREST_FACET):
+        face = tables.between[numbers[number + 6] + best - numbers[number]]
+        is_facet = face >= tables.facet_start
+        if is_facet and row(kind, frames[face], 1).dot(x) < kind.real(NEAREST_FACET):
             face = best
-        if face < edge_start:
+        if face < tables.edge_start:
             s = row(kind, frames[face], 0)
     return s, face, is_kept
 
 
 @ti.func
-def from_edge(
-    kind: ti.template(),
-    x,
-    along,
-    face,
-    frames: ti.template(),
-    numbers: ti.template(),
-    targets: ti.template(),
-    ways: ti.template(),
-):
+def from_edge(kind: ti.template(), x, along, face, tables: ti.template()):
     """Return as `from_vertex`: on the edge, or at an end of it, or on a facet that x has passed."""
+    numbers, ways = ti.static((tables.numbers, tables.ways))
     slack = kind.real(kind.tolerances.slack)
-    frame = frames[face]
+    frame = tables.frames[face]
     length = frame[2, 0]
     is_kept = along >= -slack and along <= length + slack
     within = ti.min(ti.max(along, kind.real(0.0)), length)
@@ -215,27 +171,20 @@ def from_edge(
         if second > first:
             first, link = second, link + 1
         if first > slack:
-            face, is_kept = targets[link], False
+            face, is_kept = tables.targets[link], False
     return s, face, is_kept
 
 
 @ti.func
-def from_facet(
-    kind: ti.template(),
-    aside,
-    face,
-    frames: ti.template(),
-    numbers: ti.template(),
-    targets: ti.template(),
-    ways: ti.template(),
-):
+def from_facet(kind: ti.template(), aside, face, tables: ti.template()):
     """Return as `from_vertex`: on the facet, or where it is left, on its boundary."""
+    frames, numbers, targets = ti.static((tables.frames, tables.numbers, tables.targets))
     frame = frames[face]
     axis = row(kind, frame, 1)
     s = row(kind, frame, 0) + aside - aside.dot(axis) * axis
     least, edge = kind.real(0.0), -1
     for link in range(numbers[NUMBERS * face + 2], numbers[NUMBERS * face + 3]):
-        inside = (s - row(kind, frames[targets[link]], 0)).dot(ways[link])
+        inside = (s - row(kind, frames[targets[link]], 0)).dot(tables.ways[link])
         if inside < least:
             least, edge = inside, targets[link]
     if edge >= 0:

@@ -10,20 +10,16 @@ that results are the same bit for bit.
 Python runs through each kernel once per process, even when it is compiled already, and spends about
 as long on a product of two matrices in Taichi's own words as on a hundred products of scalars. So
 small algebra is that of `algebra.py`, on entries; what is left are vectors and control flow. The
-loop over neighbors could end early, as that of `taichi_covariances.py`.
+loop over neighbors could end early, as that of `covariance`.
 """
-
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
 
 from types import SimpleNamespace
 from typing import Any
 
 from ..algebra import nearer_to_orthogonal, times
-from .engine import ti
-from .kernel_types import kernel_types, state_types
-from .taichi_active_set import Kind, rotation_near
-from .taichi_covariances import covariance
+from .engine import kernel_types, state_types, ti
+from .face_tables import FaceTables
+from .taichi_active_set import Kind, covariance, rotation_near
 from .taichi_faces import rotation_on_faces
 from .taichi_lanes import make_local_step as in_lanes
 
@@ -64,6 +60,9 @@ def make_kernels(real, width, has_lanes=False):
         edge_start: ti.i32,
         facet_start: ti.i32,
     ):
+        tables = ti.static(
+            FaceTables(frames, numbers, targets, ways, between, edge_start, facet_start)
+        )
         for i in range(lam.shape[0]):
             S, quadratic = covariance(kind, i, U, indptr, indices, gather, weights)
             S /= area_scale[i]
@@ -79,20 +78,7 @@ def make_kernels(real, width, has_lanes=False):
                 certified[i] = ti.cast(is_certified, ti.i32)
             else:
                 rotation, s, fit, cost, is_certified = rotation_on_faces(
-                    kind,
-                    S,
-                    normals[i],
-                    Q[i * q_stride],
-                    lam[i],
-                    last,
-                    subgradients[i],
-                    frames,
-                    numbers,
-                    targets,
-                    ways,
-                    between,
-                    edge_start,
-                    facet_start,
+                    kind, S, normals[i], Q[i * q_stride], lam[i], last, subgradients[i], tables
                 )
                 R[i] = rotation
                 subgradients[i] = s

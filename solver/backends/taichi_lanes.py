@@ -8,15 +8,10 @@ computes both ways of each branch, so that it pays for few and short ones; all l
 last one has its rotation.
 """
 
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
-
 from ..algebra import nearer_to_orthogonal, product, transposed
 from ..styles.active_set import MAX_STEPS
-from .engine import ti
-from .kernel_types import kernel_types
-from .taichi_active_set import fit_and_cost, in_frame, step
-from .taichi_covariances import covariance
+from .engine import kernel_types, ti
+from .taichi_active_set import covariance, fit_and_cost, in_frame, step
 
 LANES = 4
 """vertices; as many numbers of 64 bit are in a vector of AVX2"""

@@ -2,7 +2,8 @@
 """The local step in Taichi, on the CPU or a GPU. See `NumpyLocalStep` for the interface."""
 
 from functools import cache, partial
-from typing import Any, NamedTuple
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -15,79 +16,41 @@ from .arrays import arrays_for
 from .engine_lock import alone
 from .face_tables import face_tables
 from .numpy_local_step import area_scale, local_cubeness
-from .rows import HostRows
-from .warmup import warm_up
+from .taichi_runtime import warm_up
 
 LANES_FROM = 20_000
 """vertices from which the kernel of `taichi_lanes.py` pays: to compile it takes three times as
 long, once on each machine, and then an iteration a twentieth less"""
 
 
-class _Arguments(NamedTuple):
-    """What the kernel `local_step` is called with between the positions and the `face_tables`."""
-
-    indptr: Any
-    indices: Any
-    gather: Any
-    weights: Any
-    normals: Any
-    area_scale: Any
-    lam: Any
-    Q: Any
-    q_stride: int
-    R: Any
-    subgradients: Any
-    energies: Any
-    certified: Any
-
-
 class TaichiLocalStep:
     """Rotations from positions, and the right-hand side of the global step from rotations.
 
-    `rest`, `lam`, `Q`, `options`, `form`, `normals`: as in `NumpyLocalStep`.
-    `precision`: by default f64 where the device has it.
-
-    Attributes
-    ----------
-    device : str
-        Such as "taichi-cpu".
-    resolution : float
-        As in `NumpyLocalStep`.
-    precision, real : str and dtype
-        The precision, "f64" or "f32", and NumPy's type for it.
-    arrays : HostArrays or DeviceArrays
-        Where the arrays of the run lie. On a GPU they stay there.
-    compile_seconds : float
-        Time spent compiling the kernels or loading them from the cache; 0 after the first use.
+    `rest`, `lam`, `Q`, `options`, `form`, `normals`, `resolution`: as in `NumpyLocalStep`.
+    `precision`: "f64" or "f32", by default f64 where the device has it. `device`: such as
+    "taichi-cpu". `arrays`: HostArrays or DeviceArrays, where the arrays of the run lie; on a GPU
+    they stay there. `compile_seconds`: to compile the kernels or to load them from the cache; 0
+    after the first use.
     """
 
     @alone
     def __init__(
-        self,
-        rest,
-        lam,
-        Q,
-        options,
-        form: Any = CUBE,
-        normals=None,
-        *,
-        device="cpu",
-        precision=None,
+        self, rest, lam, Q, options, form: Any = CUBE, normals=None, *, device="cpu", precision=None
     ):
-        runtime = taichi_runtime.start(device)
+        self._wanted = device
+        self.device, has_f64 = taichi_runtime.start(device)
         self._rest = rest
         normals = rest.normals if normals is None else normals
-        self._wanted, self.device = device, runtime.device
-        precision = precision or ("f64" if runtime.has_f64 else "f32")
+        precision = precision or ("f64" if has_f64 else "f32")
         self.resolution = 1e-9 if precision == "f64" else 1e-6
         real = np.float64 if precision == "f64" else np.float32
         # The newer LLVM of Quadrants makes vectors of a third of them only: there one vertex after
         # the other is as quick.
         is_worth_it = form.width == CUBE.width and len(rest.V) >= LANES_FROM
-        has_lanes = is_worth_it and runtime.device == "taichi-cpu"
+        has_lanes = is_worth_it and self.device == "taichi-cpu"
         self._kernels = _kernels(precision, form.width, has_lanes)
         self.precision, self.real = precision, real
-        self.arrays = arrays_for(runtime.device)
+        self.arrays = arrays_for(self.device)
         n = len(rest.V)
         lam = local_cubeness(rest.areas, normals, lam)
         self._options = options
@@ -102,12 +65,17 @@ class TaichiLocalStep:
             self._tables = face_tables(form.faces, self._keep, self.arrays.keep)
         self._scatter = self._keep(rest.matrices.scatter)
         self._rhs = np.empty((n, 3), real)
+        of = self._arguments
+        self._of_rhs = of.indptr, of.indices, self._scatter, of.R, self._rhs
         self._rows = self._make_rows()
         self._sum_on_device = None
         self.compile_seconds = warm_up(
             [
-                (self._kernels.local_step, (self._rhs, *self._arguments, *self._tables)),
-                (self._kernels.right_hand_side, self._right_hand_side_arguments()),
+                (
+                    self._kernels.local_step,
+                    (self._rhs, *vars(self._arguments).values(), *self._tables),
+                ),
+                (self._kernels.right_hand_side, self._of_rhs),
             ]
         )
 
@@ -117,7 +85,8 @@ class TaichiLocalStep:
     def _make_arguments(self, Q):
         m, rest, keep = self._rest.matrices, self._rest, self._keep
         identity = np.tile(np.eye(3), (len(rest.V), 1, 1))
-        return _Arguments(
+        # between the positions and the `face_tables`, in the order of the kernel `local_step`
+        return SimpleNamespace(
             indptr=self.arrays.keep(m.indptr),
             indices=self.arrays.keep(m.indices),
             gather=keep(m.gather),
@@ -162,18 +131,10 @@ class TaichiLocalStep:
         self._sums = np.zeros((len(self._group_component), 3), self.real)
         # Taken from each vertex. Taken from their sum, which is as large as that of all squared
         # edges, the rounding of 32 bit would hide how the energy falls: momentum and end need it.
-        at_rest = keep(setup.rest.energy_terms.astype(self.real))
-        weight = keep(self._normal_weight.astype(self.real))
-        arguments = (
-            keep(topology.chunks[0]),
-            self._arguments.energies,
-            at_rest,
-            weight,
-            self._arguments.certified,
-            keep(groups),
-            keep(np.zeros((len(topology.chunks[1]), 3), self.real)),
-            self._sums,
-        )
+        at_rest, weight = self._keep(setup.rest.energy_terms), self._keep(self._normal_weight)
+        parts = keep(np.zeros((len(topology.chunks[1]), 3), self.real))
+        of_vertices = self._arguments.energies, at_rest, weight, self._arguments.certified
+        arguments = keep(topology.chunks[0]), *of_vertices, keep(groups), parts, self._sums
         kernel = motion_kernels(self.precision).sum_energies
         self._sum_on_device = partial(kernel, *arguments)
         motion = TaichiMotion(setup, self, U, constraints)
@@ -191,7 +152,7 @@ class TaichiLocalStep:
         self.start_device()
         if not self.arrays.is_resident:
             U = np.ascontiguousarray(U, dtype=self.real)
-        self._kernels.local_step(U, *self._arguments, *self._tables)
+        self._kernels.local_step(U, *vars(self._arguments).values(), *self._tables)
         if self._sum_on_device is not None:
             return self._summed(U, self._sum_on_device)
         rows = self._uncertified()
@@ -233,7 +194,7 @@ class TaichiLocalStep:
     def right_hand_side(self):
         """Return the right-hand side (n,3) of L U = rhs for the present rotations."""
         self.start_device()
-        self._kernels.right_hand_side(*self._right_hand_side_arguments())
+        self._kernels.right_hand_side(*self._of_rhs)
         return self._rhs.astype(np.float64, copy=False)
 
     def start_device(self):
@@ -249,14 +210,33 @@ class TaichiLocalStep:
         of = self._arguments
         return of.indptr, of.indices, self._scatter, of.weights, of.R, point, scale, B
 
-    def _right_hand_side_arguments(self):
-        return (
-            self._arguments.indptr,
-            self._arguments.indices,
-            self._scatter,
-            self._arguments.R,
-            self._rhs,
-        )
+
+class HostRows:
+    """The rows of a local step that its kernel leaves to another method, of arrays in NumPy.
+
+    `taichi_rows.py` has the same for those on a device.
+
+    `matrices`: SpokesAndRims. `area_scale`: (n,). `R`, `s`, `energies`: (n,3,3), (n,w) and (n,3),
+    rotations, states, and the energies of `local_step` in `taichi_kernels.py`.
+    """
+
+    def __init__(self, matrices, area_scale, R, s, energies):
+        self._matrices, self._area_scale = matrices, area_scale
+        self._R, self._s, self._energies = R, s, energies
+
+    def take(self, U, rows):
+        """Return divided covariances (k,3,3), rotations (k,3,3) and states (k,w) of rows.
+
+        `U`: (n,3), positions. `rows`: (k,) int.
+        """
+        S = self._matrices.covariances(U.astype(np.float64, copy=False), rows)
+        S = S / self._area_scale[rows, None, None]
+        return S, self._R[rows].astype(np.float64), self._s[rows]
+
+    def put(self, rows, R, s, fit, cost):
+        """Set rotations (k,3,3) and states (k,w), and their fit (k,) and cost (k,)."""
+        self._R[rows], self._s[rows] = R, s
+        self._energies[rows, 1:] = np.stack([fit, cost], axis=1)
 
 
 @cache

@@ -8,7 +8,7 @@ import numpy as np
 from ..global_step.motion import largest
 from .engine_lock import alone
 from .taichi_cycle import TaichiCycle
-from .warmup import warm_up
+from .taichi_runtime import warm_up
 
 
 class TaichiMotion:
@@ -30,31 +30,34 @@ class TaichiMotion:
         self._kernels = motion_kernels(local.precision)
         multigrid = setup.global_step.multigrid
         self._cycle = TaichiCycle(multigrid, arrays)
-        self._scale = keep(multigrid.scale)
+        scale = keep(multigrid.scale)
         topology = rest.topology
         (bounds, of_chunk), (groups, self._component) = topology.chunks, topology.groups
-        self._bounds, self._of_chunk, self._groups = keep(bounds), keep(of_chunk), keep(groups)
+        bounds, chunks, groups = keep(bounds), keep(of_chunk), keep(groups)
         share = topology.shares(rest.weighing)
         self._center = topology.sum_parts(share[:, None] * rest.V)
-        self._V, self._share = keep(rest.V.astype(real)), keep(share.astype(real))
+        V, share = keep(rest.V.astype(real)), keep(share.astype(real))
         # only asked for where a component has to be kept from turning
         self._P, self._pull = (keep(np.zeros_like(rest.V, real)) for _ in range(2))
         self._is_kept = False
         self._setup = setup
         # of each chunk, and of each group; the latter are few, and written to NumPy at once
-        self._moments, self._largest = (
+        self._sums, self._largest = (
             [keep(np.zeros((len(of_chunk), k), real)), np.zeros((len(self._component), k), real)]
             for k in (6, 3)
         )
         self._U, self.point = (keep(np.array(U, real)) for _ in range(2))
+        X = self._cycle.X
+        self._of_residual = local.residual_arguments(self.point, scale, self._cycle.B)
+        of_share = bounds, share, self._pull
+        self._of_moments = *of_share, self.point, scale, X, groups, *self._sums
+        self._before_motion = bounds, chunks, V, scale, X, self._P
+        self._after_motion = self.point, self._U, groups, *self._largest
         still = np.zeros((len(self._center), 8))
         self.compile_seconds = warm_up(
             [
-                (
-                    self._kernels.residual,
-                    local.residual_arguments(self.point, self._scale, self._cycle.B),
-                ),
-                (self._kernels.moments, self._moments_arguments()),
+                (self._kernels.residual, self._of_residual),
+                (self._kernels.moments, self._of_moments),
                 (self._kernels.move, self._move_arguments(still)),
                 *self._cycle.calls(),
             ]
@@ -86,8 +89,7 @@ class TaichiMotion:
         is_constrained = parts is not None or len(self._constraints) > 0
         before = self.positions.copy() if is_constrained else None
         self._local.start_device()
-        arguments = self._local.residual_arguments(self.point, self._scale, self._cycle.B)
-        self._kernels.residual(*arguments)
+        self._kernels.residual(*self._of_residual)
         self._cycle.run()
         motion = np.column_stack([*self._whole(keep_rotation), momentum, overshoot])
         self._kernels.move(*self._move_arguments(motion))
@@ -120,32 +122,8 @@ class TaichiMotion:
         now = self.positions
         return largest(now - before), largest(now - self._setup.rest.V)
 
-    def _moments_arguments(self):
-        return (
-            self._bounds,
-            self._share,
-            self._pull,
-            self.point,
-            self._scale,
-            self._cycle.X,
-            self._groups,
-            *self._moments,
-        )
-
     def _move_arguments(self, motion):
-        return (
-            self._bounds,
-            self._of_chunk,
-            self._V,
-            self._scale,
-            self._cycle.X,
-            self._P,
-            motion.astype(self._local.real),
-            self.point,
-            self._U,
-            self._groups,
-            *self._largest,
-        )
+        return *self._before_motion, motion.astype(self._local.real), *self._after_motion
 
     def _whole(self, keep_rotation):
         """Return twists (c,3) and shifts (c,3) of the components, see the kernel `move`."""
@@ -158,8 +136,8 @@ class TaichiMotion:
             self._local.arrays.put(self._P, no_turning.P)
             self._local.arrays.put(self._pull, no_turning.pull)
             self._is_kept = True
-        self._kernels.moments(*self._moments_arguments())
-        sums = [np.bincount(self._component, column, count) for column in self._moments[1].T]
+        self._kernels.moments(*self._of_moments)
+        sums = [np.bincount(self._component, column, count) for column in self._sums[1].T]
         means, torques = np.stack(sums[:3], axis=1), np.stack(sums[3:], axis=1)
         if no_turning:
             twist = no_turning.twist(torques)

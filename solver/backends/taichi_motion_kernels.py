@@ -5,13 +5,9 @@ To import this imports the engine. Sums and maxima are those of the chunks of
 `Topology` and then of its groups, each in a fixed order; the few of the groups go to NumPy.
 """
 
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
-
 from types import SimpleNamespace
 
-from .engine import ti
-from .kernel_types import kernel_types
+from .engine import kernel_types, ti
 
 
 def make_motion_kernels(real):

@@ -4,18 +4,13 @@
 To import this imports the engine.
 """
 
-# pyright: reportInvalidTypeForm=false, reportGeneralTypeIssues=false, reportOptionalCall=false
-# pyright: reportIndexIssue=false
-
 from functools import cache
 from types import SimpleNamespace
 
 import numpy as np
 
-from .engine import ti
-from .kernel_types import kernel_types, state_types
-from .taichi_active_set import Kind
-from .taichi_covariances import covariance
+from .engine import kernel_types, state_types, ti
+from .taichi_active_set import Kind, covariance
 
 
 class DeviceRows:

@@ -4,8 +4,8 @@
 import numpy as np
 
 from ..algebra import sums_by_group
-from ..global_step.aggregation import aggregates
-from ..mesh.triangles import distinct
+from ..global_step.multigrid import aggregates
+from ..mesh.edges import distinct
 from ..optional_packages import optional_package
 
 MOST_LEFT = 0.7

@@ -243,17 +243,9 @@ def _without_turning_over(V, F, patches, tolerance, walls):
     most = np.full(len(V), MOST)
     before = area_vectors(V, F)
     least = _LEAST_AREA * np.einsum("mj,mj->m", before, before)
+    planes = patches.vertex, patches.patch, patches.normals, patches.offset
     while True:
-        moved, is_in = nearest_on_planes(
-            V,
-            patches.vertex,
-            patches.patch,
-            patches.normals,
-            patches.offset,
-            most,
-            tolerance,
-            walls,
-        )
+        moved, is_in = nearest_on_planes(V, *planes, most, tolerance, walls)
         kept = np.einsum("mj,mj->m", before, area_vectors(moved, F))
         is_turned = (kept < least) & (moved != V).any(axis=1)[F].any(axis=1)
         if not is_turned.any():

@@ -5,7 +5,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import ArrayLike
+from scipy.sparse.csgraph import dijkstra
 
 from ..aliases import BoolArray, Faces, FloatArray, IntArray
 from ..mesh.face_graph import FaceGraph
@@ -14,10 +16,9 @@ from ..mesh.unit_box import unit_box
 from ..proxy.weld import weld
 from ..values import Value
 from .corners import FLATNESS, Corners
-from .parts import parts_of
+from .joining import straightened
 from .polygons import filled
 from .regions import regions_of
-from .straight import straightened
 
 STRAY = 0.5
 """of the tolerance: how far a side may stray from its plane"""
@@ -99,7 +100,7 @@ def low_poly(
     walls = [(is_inside[first], normal / np.linalg.norm(normal)) for is_inside, normal in walls]
     charts = np.zeros(len(G), np.int64) if charts is None else charts
     cuts = np.empty((0, 2), np.int64) if cuts is None else cuts
-    parts, charts = parts_of(graph, regions.of_triangle, charts, cuts)
+    parts, charts = _parts_of(graph, regions.of_triangle, charts, cuts)
     corners = Corners(W, G, graph, regions, parts, tolerance, walls)
     P = corners.positions
     found = {}
@@ -121,3 +122,32 @@ def low_poly(
     polygons = [first[loop].tolist() for loop in loops]
     region_of = about[part_of, 0].tolist()
     return LowPoly(result, polygons, part_of, region_of, parts, first[group])
+
+
+def _parts_of(graph, region, charts, cuts):
+    """Return the connected parts (m,) of one region and one chart, and their charts (m,).
+
+    A part that lies on both sides of a cut, as around the end of a seam, is divided half-way
+    between these: its polygons would bridge the cut. The second half is a chart of its own.
+
+    `graph`: FaceGraph. `region`, `charts`: (m,). `cuts`: (c,2) int, as of `low_poly`.
+    """
+    m, charts = len(region), charts.copy()
+    is_same = region[graph.one] == region[graph.other]
+    is_same &= charts[graph.one] == charts[graph.other]
+    lower, upper = np.minimum(graph.one, graph.other), np.maximum(graph.one, graph.other)
+    cuts = np.sort(np.asarray(cuts, dtype=np.int64), axis=1)
+    is_same &= ~np.isin(lower.astype(np.int64) * m + upper, cuts[:, 0] * m + cuts[:, 1])
+    part = graph.regions(is_same)[1]
+    while True:
+        both = cuts[part[cuts[:, 0]] == part[cuts[:, 1]]]
+        if not len(both):
+            return part, charts
+        both = both[np.unique(part[both[:, 0]], return_index=True)[1]]
+        ends = graph.one[is_same], graph.other[is_same]
+        lengths = sp.csr_matrix((graph.distance[is_same], ends), shape=(m, m))
+        far = [dijkstra(lengths, directed=False, indices=side, min_only=True) for side in both.T]
+        is_second = far[1] < far[0]
+        charts[is_second] = charts.max() + 1 + part[is_second]
+        is_same &= is_second[graph.one] == is_second[graph.other]
+        part = graph.regions(is_same)[1]

@@ -153,10 +153,9 @@ class FrameSequence:
             As `Run`.
         """
         self._turns = np.tile(np.eye(3), (len(stylization.rest.V), 1, 1))
-        if self.state is None:
-            return Run(stylization, max_iterations, tolerance, keep_apart=False, harden=False)
-        self._turns = self._start(stylization)
-        return Run(stylization, STEPS, tolerance, keep_apart=False, harden=False)
+        if self.state is not None:
+            self._turns, max_iterations = self._start(stylization), STEPS
+        return Run(stylization, max_iterations, tolerance, keep_apart=False, harden=False)
 
     def settle(self, run: Run) -> Iterator[None]:
         """Make the first frame, once it is solved, like all others; yield after each step.

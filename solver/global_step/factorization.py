@@ -10,10 +10,7 @@ from ..optional_packages import optional_package
 
 
 def factorize(A):
-    """Return a function that maps B (n,3) float64 to X (n,3) with A X = B.
-
-    `A`: (n,n) csr_matrix, symmetric positive definite.
-    """
+    """Return a function from B (n,3) to X with A X = B; A: (n,n) csr_matrix, positive definite."""
     cholespy = optional_package("cholespy")  # about twice as fast as SciPy's LU at solving
     if cholespy is not None:
         with suppress(ImportError, AttributeError, TypeError):  # of a broken installation

@@ -8,10 +8,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from ..proxy.samples import extents
-from .centring import Centring
 from .factorization import factorize
 from .multigrid import Multigrid, has_multigrid
 from .no_turning import NoTurning
+from .tall_products import weighted_sum
 from .upright_parts import UprightParts
 
 FACTORIZED_VERTICES = 60_000
@@ -151,6 +151,39 @@ class GlobalStep:
         return result
 
 
+class Centring:
+    """Keep the centroid of each floating component, weighted by area, where it is at rest.
+
+    `rest`: RestMesh. `is_floating`: (component_count,) bool, the components that move, at least
+    one; the others stay as they are, bit for bit.
+    """
+
+    def __init__(self, rest, is_floating):
+        topology = rest.topology
+        self._is_whole = topology.component_count == 1
+        share = topology.shares(rest.weighing)
+        if self._is_whole:
+            self._share = share
+        else:
+            share = np.where(is_floating[topology.component], share, 0.0)
+            self._share = topology.by_component(share[:, None]).T
+            self._spread = topology.by_component(np.ones((len(share), 1)))
+        self._centroids = self._measure(rest.V)
+
+    def _measure(self, U):
+        """Return the centroids (component_count,3), zero of those that do not float."""
+        return weighted_sum(self._share, U)[None] if self._is_whole else self._share @ U
+
+    def impose(self, U):
+        """Move the components of positions U (n,3), in place, to where their centroids were."""
+        shift = self._centroids - self._measure(U)
+        if not self._is_whole:
+            U += self._spread @ shift
+            return
+        for column, step in zip(U.T, shift[0], strict=True):
+            column += step  # adding rows of three takes NumPy ten times as long
+
+
 def _is_small(topology):
     largest = topology.largest_component
     if largest <= FACTORIZED_VERTICES:
@@ -161,10 +194,7 @@ def _is_small(topology):
 
 
 def _solver(L, is_held):
-    """Return a function that maps B (n,3) and X (n,3) to the solution of L X = B.
-
-    The rows of X that are held stay as they are.
-    """
+    """Return a function from B and X (n,3) to the solution of L X = B with the held rows of X."""
     held = np.flatnonzero(is_held)
     coupling = L[:, held]
     coupled = np.flatnonzero(np.diff(coupling.indptr))  # few: most rows have no held neighbor

@@ -39,7 +39,7 @@ class RestyledRun(Run):
     def __init__(self, run: Run, soft: Stylization, *, keeps_sides: bool):
         hard = run._present_hard
         self.__dict__.update(run.__dict__)
-        self.reason, self._seconds, self._apart, self._hard_end = None, 0.0, None, None
+        self.reason, self.seconds, self._apart, self._hard_end = None, 0.0, None, None
         held = run._held if isinstance(run, RestyledRun) else hard.setup
         self._held: Setup | None = held if soft.setup is run.soft.setup else None
         self._soft, self._coarse_iterations = soft, 0

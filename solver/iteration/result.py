@@ -1,14 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a run ends with."""
+"""What a run ends with, and the energy that it minimizes."""
 
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from ..aliases import FloatArray, IntArray
 from ..values import Value
-from .energy import Energy
 
 Reason: TypeAlias = Literal["converged", "max_iterations", "cancelled"]
+
+
+@dataclass(frozen=True)
+class Energy:
+    """Energies in the unit box (divide lengths by the largest extent of the mesh).
+
+    Examples
+    --------
+    >>> from solver import Energy
+    >>> Energy(arap=0.25, cubic=0.5).total
+    0.75
+    """
+
+    arap: float
+    """of the as-rigid-as-possible deformation"""
+    cubic: float
+    """of the normals, which is lowest along the axes of the cube"""
+
+    @property
+    def total(self) -> float:
+        """The energy that is minimized."""
+        return self.arap + self.cubic
 
 
 @dataclass(frozen=True, eq=False, repr=False)

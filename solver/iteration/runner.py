@@ -25,9 +25,8 @@ from ..errors import CubicCraftError
 from ..hardening.hard_stylization import HardStylization
 from ..hardening.hardening import GIVEN_BACK, ROUNDS, is_hardened
 from ..inputs import instance, real_number, switch, whole_number
-from .energy import Energy
 from .from_below import FromBelow
-from .result import Reason, Result
+from .result import Energy, Reason, Result
 from .stop_rule import StopRule
 from .stylization import Stylization
 
@@ -48,7 +47,7 @@ class Run:
 
     However it is sliced, the result is identical to that of `run`, bit for bit.
     The arguments are those of `run`. `reason` is None while it is not finished, then as in
-    `Result`.
+    `Result`; `seconds` is the time of the iterations so far.
 
     Raises
     ------
@@ -92,7 +91,7 @@ class Run:
         self._rule = self._new_rule()
         # not a bound method: a run would hold itself, and its memory, until cycles are looked for
         self._phase: Callable[[Any], None] = Run._local_step
-        self._seconds = 0.0
+        self.seconds = 0.0
         self._coarse_iterations = 0
         coarse = coarse_stylization(stylization)
         self._coarse = None if coarse is None else Run(coarse, MAX_ITERATIONS, TOLERANCE)
@@ -127,11 +126,6 @@ class Run:
         return self._round > 0
 
     @property
-    def is_hardening(self) -> bool:
-        """Whether the soft shape is done, and its sides become flat."""
-        return self._soft is not None
-
-    @property
     def soft(self) -> Stylization:
         """The Stylization of the soft shape: at its end, once the sides become flat."""
         return self._soft or self.stylization
@@ -164,11 +158,6 @@ class Run:
             return self._coarse.energy
         return self.soft.energy or self._coarse_energy
 
-    @property
-    def seconds(self) -> float:
-        """Time of the iterations so far."""
-        return self._seconds
-
     def advance(self) -> None:
         """Do one phase: a local or a global step. The last one sets `reason`."""
         begin = time.perf_counter()
@@ -178,7 +167,7 @@ class Run:
                 self._leave(self._coarse)
         else:
             self._phase(self)
-        self._seconds += time.perf_counter() - begin
+        self.seconds += time.perf_counter() - begin
 
     def _leave(self, coarse: Run) -> None:
         """Begin on the mesh itself, from where the coarser one is."""
@@ -190,7 +179,9 @@ class Run:
 
     def _new_rule(self) -> StopRule:
         state = self.stylization
-        may_swing = not state.is_coarse and state.rest.topology.has_linked_parts
+        topology = state.rest.topology
+        has_linked_parts = bool(topology.part.max() >= topology.component_count)
+        may_swing = not state.is_coarse and has_linked_parts
         return StopRule(self._tolerance, state.resolution, may_swing)
 
     def _local_step(self):
@@ -306,11 +297,7 @@ class Run:
         self._phase = soften
 
     def _soften(
-        self,
-        last: KeepApart,
-        is_between_parts: bool,
-        fewest: float = math.inf,
-        tries: int = 0,
+        self, last: KeepApart, is_between_parts: bool, fewest: float = math.inf, tries: int = 0
     ) -> None:
         """Leave soft what still crosses, again and again while that helps.
 
@@ -354,7 +341,7 @@ class Run:
         if hard is None:
             return None
         other = copy(self)
-        other.reason, other._seconds = None, 0.0
+        other.reason, other.seconds = None, 0.0
         other._begin_at_hard_end(hard, self._hard_end[1])
         return other
 
@@ -399,8 +386,8 @@ class Run:
             self._leave(self._coarse)
         if self.stylization.is_limited:
             self.stylization.limit_cubeness(math.inf)
-        energy = self.soft.energy if self.is_hardening else self.stylization.finish()
-        self._seconds += time.perf_counter() - begin
+        energy = self._soft.energy if self._soft is not None else self.stylization.finish()
+        self.seconds += time.perf_counter() - begin
         return self._result(energy)
 
     def so_far(self) -> Result | None:
@@ -414,18 +401,10 @@ class Run:
     def _result(self, energy):
         begin = time.perf_counter()
         positions, rotations = self.placed()
-        seconds = self._seconds + time.perf_counter() - begin
-        apart = None if self.reason in (None, "cancelled") else self._apart
-        return Result(
-            positions,
-            rotations,
-            energy,
-            self.soft.iterations,
-            self.reason or "cancelled",
-            self.soft.device,
-            self.soft.compile_seconds,
-            seconds,
-            None if apart is None else apart.crossings,
-            None if apart is None else apart.pressed,
-            None if apart is None else apart.vertices,
-        )
+        seconds = self.seconds + time.perf_counter() - begin
+        apart, reason = self._apart, self.reason or "cancelled"
+        found = None, None, None
+        if apart is not None and reason != "cancelled":
+            found = apart.crossings, apart.pressed, apart.vertices
+        soft = self.soft.iterations, reason, self.soft.device, self.soft.compile_seconds
+        return Result(positions, rotations, energy, *soft, seconds, *found)

@@ -96,10 +96,9 @@ class Setup(Stored):
             )
             is_pinned[self.pinned_input] = True
         self.pinned = np.flatnonzero(rest.input_map.spread_mask(is_pinned))
-        self.has_pin = np.zeros(rest.topology.component_count, dtype=bool)
-        self.has_pin[rest.topology.component[self.pinned]] = True
         self.mirrors = self._solved(mirrors)
         self.global_step = GlobalStep(rest, self.pinned)
+        self.has_pin = self.global_step.is_anchored
         self.hold_fields: HoldFields | None = None
 
     def __getstate__(self) -> dict[str, Any]:
@@ -161,9 +160,8 @@ class Setup(Stored):
         """
         other = self._without_coarse()
         other.rest = rest.held_apart(links)
-        other.has_pin = np.zeros(other.rest.topology.component_count, dtype=bool)
-        other.has_pin[other.rest.topology.component[self.pinned]] = True
         other.global_step = GlobalStep(other.rest, self.pinned)
+        other.has_pin = other.global_step.is_anchored
         if self.hold_fields is None:
             return other
         weights, other.hold_fields = self.hold_fields.weights, None
@@ -175,8 +173,8 @@ class Setup(Stored):
         `hold`: (n,), how firmly, see `GlobalStep`.
         """
         other = self._without_coarse()
-        other.has_pin = np.ones_like(self.has_pin)  # no component floats
         other.global_step = GlobalStep(self.rest, self.pinned, hold)
+        other.has_pin = other.global_step.is_anchored  # no component floats
         if self.hold_fields is not None:
             other.hold_fields = HoldFields(other, self.hold_fields.weights)
         return other

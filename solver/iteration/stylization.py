@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..aliases import FloatArray
 from ..backends import local_step_class
-from ..coarse_to_fine.coarser import coarser_pose, coarser_style
+from ..coarse_to_fine.start import coarser_pose, coarser_style
 from ..contacts.riding import Riding
 from ..global_step.holds import Holds
 from ..inputs import instance, real_numbers
@@ -24,9 +24,9 @@ from ..styles.style import Style
 from ..surface.symmetry import Mirror
 from ..values import Stored, described
 from .acceleration import Momentum
-from .energy import Energy
 from .options import SolverOptions
 from .pose import Pose, pins_moved
+from .result import Energy
 from .setup import Setup
 
 _FIRST_SOLVES = 3  # where a solve is approximate, the first one starts far from the solution

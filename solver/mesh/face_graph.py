@@ -8,7 +8,7 @@ import scipy.sparse as sp
 
 from ..algebra import by_blocks
 from .components import components
-from .triangles import Triangles
+from .edges import Triangles
 
 _SHORTEST = 1e-9  # in the unit box, between two centroids
 

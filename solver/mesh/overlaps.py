@@ -28,13 +28,10 @@ _ALL_AXES = np.uint8(7)
 def blocks_of_overlaps(low, high, is_asking=None):
     """Yield boxes that lie side by side in the cells of the octree.
 
-    low, high : (m,3) float arrays
-        Corners of the boxes, from 0 to 1.
-    is_asking : (m,) bool array, optional
-        Only pairs of one of these and one of the others are found.
-
-    Gives `box`: (e,) int, boxes, some of them several times; `first`, `second`: (k,) int, places in
-    it: pairs that overlap, each of them in one block only.
+    `low`, `high`: (m,3), corners of the boxes, from 0 to 1. `is_asking`: (m,) bool, optional, only
+    pairs of one of these and one of the others are found. Gives `box`: (e,) int, boxes, some of
+    them several times; `first`, `second`: (k,) int, places in it: pairs that overlap, each of them
+    in one block only.
     """
     low, high = _on_grid(low), _on_grid(high)
     for cells in _leaves(low, high):
@@ -49,9 +46,7 @@ def blocks_of_overlaps(low, high, is_asking=None):
 def near(low, high, is_chosen):
     """Return a mask (m,) of boxes: all that overlap a chosen one, and others close by.
 
-    low, high : (m,3) float arrays
-        Corners of the boxes, from 0 to 1.
-    is_chosen : (m,) bool array
+    `low`, `high`: (m,3), corners of the boxes, from 0 to 1. `is_chosen`: (m,) bool.
     """
     low, high = _on_grid(low), _on_grid(high)
     chosen = low[:, is_chosen], high[:, is_chosen]
@@ -72,9 +67,7 @@ def near(low, high, is_chosen):
 class _Cells:
     """Boxes in cells of one level, those of a cell side by side.
 
-    box : (e,) int array
-    corner : (3,e) int32 array
-        The cell that each lies in.
+    `box`: (e,) int. `corner`: (3,e) int32, the cell that each lies in.
     """
 
     def __init__(self, box, corner, level):

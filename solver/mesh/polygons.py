@@ -47,10 +47,7 @@ def triangulate(V: FloatArray, faces: NDArray[Any]) -> NDArray[Any]:
 
 
 def _is_concave_at_first(V, quads):
-    """Return for each quad whether its diagonal from corner 0 to 2 lies outside of it.
-
-    Blender splits quads by the same rule.
-    """
+    """Return which diagonals from corner 0 to 2 lie outside: the rule of Blender."""
     a, b, c, d = (V[quads[:, corner]] for corner in range(4))
     return (np.cross(b - a, c - a) * np.cross(d - a, c - a)).sum(axis=1) > 0.0
 

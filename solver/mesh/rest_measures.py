@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Areas and normals of the rest shape."""
+"""Areas and normals of the rest shape, and the cotangents of its corner angles."""
 
 import numpy as np
 
 from ..aliases import FloatArray, IntArray
 from .edge_vectors import double_area_vectors, edge_vectors
+
+MAX_COTANGENT = 1e3
+"""Cotangents beyond this (angles under 0.06 degrees) only harm the condition of the system."""
 
 
 def triangle_areas_and_normals(V: FloatArray, F: IntArray) -> tuple[FloatArray, FloatArray]:
@@ -51,3 +54,30 @@ def areas_and_normals(V, F, of_triangles=None):
     is_defined = lengths > 1e-12 * areas  # otherwise rounding alone would choose the direction
     normals = np.where(is_defined[:, None], sums, 0.0) / np.where(is_defined, lengths, 1.0)[:, None]
     return areas, normals
+
+
+def cotangents(V, F):
+    """Return the cotangents of the corner angles, as ``(m,3)``: column k belongs to corner k.
+
+    They are bounded on needles, slivers and triangles without area.
+
+    A triangle with a cotangent beyond `MAX_COTANGENT` has all three scaled down together, and
+    `1 / MAX_COTANGENT` added. Scaling the three by one factor keeps the triangle's Dirichlet energy
+    positive semi-definite, which clamping each on its own would not; the summand ties its corners
+    together even where it has no area, so that every edge-connected part stays connected in the
+    Laplacian.
+
+    `V`: (n,3), positions. `F`: (m,3) int, triangles. Returns `C`: (m,3), cotangents, without unit.
+
+    Pinkall and Polthier, "Computing discrete minimal surfaces and their conjugates", 1993.
+    """
+    C = np.empty((3, len(F))).T  # as `algebra.columns` wants it
+    for block, e in edge_vectors(V, F):
+        dot = -np.stack([(e[k - 2] * e[k - 1]).sum(axis=0) for k in range(3)])
+        double_area = np.linalg.norm(double_area_vectors(e), axis=0)
+        least = np.abs(dot).max(axis=0) / MAX_COTANGENT
+        scale = np.maximum(double_area, least)
+        dot /= np.where(scale > 0.0, scale, 1.0)
+        dot += np.where(double_area <= least, 1.0 / MAX_COTANGENT, 0.0)
+        C[block] = dot.T
+    return C

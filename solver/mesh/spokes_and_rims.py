@@ -106,8 +106,7 @@ def spokes_and_rims(V, F, C, edges=None):
     hence entries are only summed for pairs of vertices, and the diagonal follows. An edge from a
     vertex to itself drops out; its length is zero.
 
-    edges : Edges, optional
-        Those of F; without them they are searched for.
+    `edges`: Edges of F, optional; without them they are searched for.
     """
     if edges is None:
         edges = Edges(F, len(V))
@@ -173,10 +172,7 @@ class Pattern:
         return sums[: len(self._lower)]
 
     def filled(self, above, below):
-        """Return values (nnz,...) from those above and below the diagonal, (e,...) at each edge.
-
-        The rows sum to zero.
-        """
+        """Return values (nnz,...) from those off the diagonal, (e,...); rows sum to 0."""
         return self._placed(above, below, -self._row_sums(above, below))
 
     def _placed(self, above, below, diagonal):

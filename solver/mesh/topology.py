@@ -3,7 +3,6 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -58,15 +57,6 @@ class Topology(Value):
     def largest_component(self):
         """Number of vertices of the largest component, which determines the difficulty."""
         return int(np.bincount(self.component).max())
-
-    @cached_property
-    def has_linked_parts(self):
-        """Whether a component has more than one part."""
-        return bool(self.part.max() >= self.component_count)
-
-    def sum_parts_at(self, vertices, values) -> Any:
-        """Sum values (k,) that belong to vertices (k,) over each component."""
-        return np.bincount(self.component[vertices], values, self.component_count)
 
     def sum_parts(self, values):
         """Sum values (n,) or (n,k) over each component, to (component_count,) or with k columns."""

@@ -78,13 +78,8 @@ class Bones:
         from ..limbs import limbs_of_bones
 
         heads, tails, parents = self._all.ends_and_parents
-        return limbs_of_bones(
-            self.placed,
-            self._all.weights,
-            self.alone.place(heads),
-            self.alone.place(tails),
-            parents,
-        )
+        heads, tails = self.alone.place(heads), self.alone.place(tails)
+        return limbs_of_bones(self.placed, self._all.weights, heads, tails, parents)
 
     @cached_property
     def _all(self):

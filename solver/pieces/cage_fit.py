@@ -68,10 +68,7 @@ class CageFit:
         return np.array_equal(at_rest, self._at_rest) and np.array_equal(is_held, self._is_held)
 
     def __call__(self, surface: FloatArray, goal: FloatArray) -> FloatArray:
-        """Return the cage (k,3) of a surface (N,3).
-
-        `goal`: (k,3), where held vertices are.
-        """
+        """Return the cage (k,3) of a surface (N,3), with held vertices as in a goal (k,3)."""
         cage = goal.copy()
         if self._solve is not None:
             wanted = self._turned(surface, self._across @ self._at_rest)

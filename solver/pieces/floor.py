@@ -38,10 +38,7 @@ _CYCLES = 12
 
 
 class Floor:
-    """The feet of what stands on the ground.
-
-    `up`: (3,), unit vector.
-    """
+    """The feet of what stands on the ground, below along the unit vector `up` (3,)."""
 
     def __init__(self, setup: "Setup", up: FloatArray):
         self._setup, self._up = setup, up

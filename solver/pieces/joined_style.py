@@ -83,7 +83,9 @@ def _joined(found, counts):
 def _with_hardening(style, pieces):
     """Return a style with the crispness and the strength of details of all pieces."""
     styles = [piece.placement.style for piece in pieces]
-    if not any(one.crispness for one in styles) and _is_one(styles, pieces):
+    has_weights = any(np.ndim(piece.detail_weights) for piece in pieces)
+    is_given = any(one.crispness or one.detail_strength != 1.0 for one in styles)
+    if not is_given and not has_weights:
         return style
     crispness, strength = [], []
     for piece, one in zip(pieces, styles, strict=True):
@@ -92,8 +94,3 @@ def _with_hardening(style, pieces):
     return replace(
         style, crispness=np.concatenate(crispness), detail_strength=np.concatenate(strength)
     )
-
-
-def _is_one(styles, pieces):
-    weights = [piece.detail_weights for piece in pieces]
-    return all(one.detail_strength == 1.0 for one in styles) and not any(map(np.ndim, weights))

@@ -30,10 +30,7 @@ def orientations(whole: Whole, placement: Placement) -> list[FloatArray]:
 def is_own_image(
     reflection: Reflection, placement: Placement, direction: FloatArray | None = None
 ) -> bool:
-    """Return whether each form of a placement is its own image about a plane of the object.
-
-    And a direction (3,), where it is solved.
-    """
+    """Return whether forms, and a direction (3,), are their own images about a plane."""
     turn = _placed(reflection, placement)
     if np.abs(_mapped(reflection, placement) - turn).max() > _ALIKE:
         return False  # a stretch aslant to the plane leaves nothing that is symmetric

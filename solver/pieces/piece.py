@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..aliases import BoolArray, FloatArray, IntArray
+from ..mesh.rest_measures import triangle_areas_and_normals
 from ..values import described
 from .bones import Bones
 from .handle_pose import HandlePose, targets
@@ -16,6 +17,11 @@ from .placement import Placement
 from .shape import Shape
 from .subdivided import Subdivided
 from .whole import Whole
+
+LEFT = 0.9
+"""of the change of the normals: with more left to do, the cage has not followed"""
+LEAST = np.radians(5.0)
+"""root mean square of that change; less is hardly seen"""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -170,3 +176,23 @@ def parts_of(pieces: Sequence[P]) -> Iterator[tuple[P, slice]]:
     for piece in pieces:
         begin, end = end, end + piece.solved
         yield piece, slice(begin, end)
+
+
+def is_stiff(piece: Piece, positions: FloatArray, own: FloatArray) -> bool:
+    """Return whether a piece is a cage that does not follow its result.
+
+    It has so few vertices that their smooth surface cannot become what was solved: however the 8
+    corners of a cube are moved, the ball that is seen of it stays round.
+
+    `positions`: (N,3), the result, where it was solved. `own`: (n,3), the mesh that was read back
+    from it.
+    """
+    whole = piece.whole
+    if not isinstance(whole, Subdivided):
+        return False
+    rest, now = (whole.images(mesh.astype(np.float64)) for mesh in (piece.shape.original, own))
+    shapes = rest, piece.placement.read_back(positions), now
+    found = (triangle_areas_and_normals(U, whole.triangles) for U in shapes)
+    (area, before), (_, wanted), (_, after) = found
+    change, left = (area @ ((n - wanted) ** 2).sum(axis=1) for n in (before, after))
+    return bool(change > LEAST**2 * area.sum() and left > LEFT * change)

@@ -52,7 +52,11 @@ class Placement:
         """All values but the cubeness and strengths, for comparison bit for bit."""
         shape = self.shape_key
         own, *regions = (
-            (shape, np.asarray(style.orientation).tobytes(), _key_of(style.forms))
+            (
+                shape,
+                np.asarray(style.orientation).tobytes(),
+                tuple(form.key for form in style.forms),
+            )
             for style in self.styles
         )
         return own, *((region,) for region in regions)
@@ -98,10 +102,6 @@ class Placement:
             return rotations
         maps = np.linalg.inv(stretch) @ rotations @ stretch
         return svd_rotations(maps.swapaxes(1, 2))
-
-
-def _key_of(values):
-    return values[0].key if values else None
 
 
 def placement_by(matrix: ArrayLike, styles: tuple[Style, ...]) -> Placement:

@@ -16,12 +16,12 @@ from ..errors import CubicCraftError
 from ..inputs import instance, instances
 from ..surface.symmetry import NO_PARTNER, Mirror
 from ..values import described
-from .common_symmetry import common_planes, even_planes, suits
 from .floor import Floor
 from .holds import Hold, holds_of
 from .joined_style import joined_style
 from .piece import P, Piece, parts_of
 from .subdivided import Subdivided
+from .symmetry import common_planes, even_planes, suits
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
     from ..iteration.options import SolverOptions
@@ -57,7 +57,7 @@ class Problem(Generic[P]):
     seconds: float
     """time to read and factorize"""
     planes: Sequence[Mirror] | None = None
-    """about which the pieces are symmetric at rest, see `common_symmetry.py`; None if not asked"""
+    """about which the pieces are symmetric at rest, see `symmetry.py`; None if not asked"""
 
     def __repr__(self) -> str:
         names = ("name", "vertices", "triangles", "components")

@@ -57,10 +57,8 @@ def box_frames(V, F, part):
 def _square(of_face, area, own):
     """Return which parts have no other sides across their first axis than along the others.
 
-    By the mean of the cosine of four times the angle about that axis.
-
-    own : (m,3) array
-        Normals of triangles in the frames of their parts.
+    By the mean of the cosine of four times the angle about that axis. `own`: (m,3), normals of
+    triangles in the frames of their parts.
     """
     y, z = own[:, 1:].T ** 2
     across = y + z

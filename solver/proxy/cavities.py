@@ -76,11 +76,7 @@ def _openings(edges, part):
 
 
 def _narrow(V, normals, i, j):
-    """Return which gaps between i and j (k,) narrow to a crease, where planes there would meet.
-
-    normals : (n,3) array
-        Toward the inside.
-    """
+    """Return which gaps i, j (k,), with inward normals, narrow to a crease."""
     middle, chord = (V[i] + V[j]) / 2.0, np.linalg.norm(V[j] - V[i], axis=1)
     outward = -(normals[i] + normals[j])
     length = np.maximum(np.linalg.norm(outward, axis=1), LEAST_OPENING)

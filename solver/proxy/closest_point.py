@@ -9,8 +9,8 @@ from ..algebra import columns, dot, from_columns
 def closest_points(P, A, B, C):
     """Return barycentric coordinates (k,3) of the nearest point to each P in a triangle each.
 
-    P, A, B, C : (k,3) float arrays
-        Points, and the corners of the triangles. Fastest if they lie as by `algebra.by_columns`.
+    `P`, `A`, `B`, `C`: (k,3), points, and the corners of the triangles. Fastest if they lie as by
+    `algebra.by_columns`.
 
     The regions of a triangle as in Ericson, "Real-Time Collision Detection", 2005, 5.1.5.
     """

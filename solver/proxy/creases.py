@@ -9,10 +9,9 @@ ignored, and its area is given to the vertices beside it, which each have the no
 import numpy as np
 
 from ..algebra import smoothstep
-from ..mesh.cotangents import cotangents
 from ..mesh.edge_vectors import BLOCK
 from ..mesh.edges import edges_of
-from ..mesh.rest_measures import triangle_areas_and_normals
+from ..mesh.rest_measures import cotangents, triangle_areas_and_normals
 
 FULL = np.cos(np.radians(25.0))
 """the normal counts where those of the faces around are within 25 degrees of it, on average..."""

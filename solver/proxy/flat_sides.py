@@ -51,17 +51,15 @@ def _of_plates(areas, normals, of_face, count):
     return np.where(is_face, factors[of_face], 1.0)
 
 
-def flat_shares(graph, part, F):
-    """Return how far parts (n,) consist of large flat sides, from 0 to 1: they have no details.
+def flat_shares(graph, part):
+    """Return how far parts consist of large flat sides, from 0 to 1: they have no details.
 
-    `graph`: FaceGraph of triangles F (m,3). `part`: (n,) int.
+    `graph`: FaceGraph. `part`: (m,) int, of its triangles, as what is returned.
     """
-    of_face = part[F[:, 0]]
-    of_part = np.bincount(of_face, graph.areas, part.max() + 1)
-    pairs = graph.one, graph.other
-    is_large = _are_large(graph.areas, graph.normals, pairs, of_face, of_part)
-    flat = np.bincount(of_face, graph.areas * is_large, len(of_part))
-    return smoothstep(flat / np.maximum(of_part, 1e-300), *FLAT)[part]
+    of_part = np.bincount(part, graph.areas)
+    is_large = _are_large(graph.areas, graph.normals, (graph.one, graph.other), part, of_part)
+    flat = np.bincount(part, graph.areas * is_large) / np.maximum(of_part, 1e-300)
+    return smoothstep(flat, *FLAT)[part]
 
 
 def _are_large(areas, normals, pairs, of_face, of_part):

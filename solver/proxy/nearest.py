@@ -16,9 +16,6 @@ class Nearest:
         self._tree = KDTree(points, leafsize=_LEAF, balanced_tree=False, compact_nodes=False)
 
     def __call__(self, places, **options):
-        """Return the numbers of the points nearest to places (k,3); options as of `KDTree.query`.
-
-        Where there is none, the number is n.
-        """
+        """Return the nearest points to places (k,3), n for none; options of `KDTree.query`."""
         workers = 1 if len(places) < FEW else -1
         return self._tree.query(places, workers=workers, **options)[1]

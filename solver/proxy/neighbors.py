@@ -12,17 +12,19 @@ Both are measured by the parts, not by the selection: two characters at opposite
 of a scene are as close to their clothes as one alone. Parts that are farther apart, or side by
 side at a distance, are not linked; and vertices of one part never are, however close its fingers.
 Nor is a planar sheet to smaller parts, see `sheets.py`. Parts that cross and that all this leaves
-apart are linked where they do, see `through.py`.
+apart are linked where they do.
 """
 
 import numpy as np
 
 from ..algebra import dot
+from ..contacts.crossings import crossings
+from ..mesh.components import components
+from .closest_point import closest_points
 from .links import links_to_triangles, no_links
 from .nearest_triangles import FEW, NearestTriangles, is_in_box
 from .samples import extents, surface_samples
 from .sheets import is_ground, planar_sheets
-from .through import links_through
 
 CONTACT = 0.01
 LAYER = 0.03
@@ -31,6 +33,8 @@ OF_SMALLER = 20.0
 """...or of this multiple of that of the smaller one, if that is less: a ground may be endless"""
 SAMPLES = 30_000
 """approximate number of linked vertices"""
+DEEP = 0.25
+"""of the extent of the smaller part: corners that are farther away are not linked"""
 LEAST_WEIGHT = 1e-4
 """Parts connected by less, such as those without area, do not count as a single part."""
 
@@ -100,3 +104,52 @@ def _is_accepted(places, normals, sizes, d):
 def _common(one, other):
     """Return the extent that counts between parts, of their own; it grows with both."""
     return np.minimum(np.maximum(one, other), OF_SMALLER * np.minimum(one, other))
+
+
+def links_through(V, F, part, count, links, areas, spacing):
+    """Return links where a part goes through another one that others (Links) do not connect it to.
+
+    So does an antenna in a head, none of whose vertices is near the surface: it would stay where it
+    is while the head becomes smaller. The corners of the triangles that cross are linked to the
+    triangle that they cross.
+
+    `V`: (n,3) float, rest positions in the unit box. `F`: (m,3) int. `part`: (n,) int, connected
+    part of each vertex, of `count` parts. `areas`, `spacing`: (n,), of the vertices, and the
+    distance between them.
+    """
+    group = components(part[links.pairs()], count)[1]
+    of_face = group[part[F[:, 0]]]
+    is_asked = of_face != np.bincount(of_face).argmax()
+    if count <= FEW and is_asked.any():
+        is_asked &= _is_near(V, F, group, part, of_face)
+    pairs = crossings(V, F, is_asked)
+    pairs = pairs[of_face[pairs[:, 0]] != of_face[pairs[:, 1]]]
+    if not len(pairs):
+        return no_links()
+    own, triangle = np.concatenate([pairs, pairs[:, ::-1]]).T
+    i, triangle = F[own].ravel().astype(np.int64), np.repeat(triangle, 3)
+    corners = F[triangle].astype(np.int64)
+    barycentric = closest_points(V[i], *V[corners].swapaxes(0, 1))
+    d = np.einsum("kc,kcj->kj", barycentric, V[corners]) - V[i]
+    squared = dot(*d.T, *d.T)
+    both = np.stack([part[i], part[corners[:, 0]]])
+    sizes = extents(V, part)
+    is_kept = squared <= (DEEP * sizes[both].min(axis=0)) ** 2
+    is_kept &= ~is_ground(sizes, planar_sheets(V, F, part), *both)
+    order = np.lexsort((triangle, squared, both[1], i))
+    order = order[is_kept[order]]
+    keys = both[:, order][1] + count * i[order]
+    kept = order[np.unique(keys, return_index=True)[1]]  # the nearest of each part
+    weights = areas[i] / np.maximum(squared, np.maximum(areas[i], spacing[i] ** 2))
+    return links_to_triangles(i[kept], corners[kept], barycentric[kept], weights[kept])
+
+
+def _is_near(V, F, group, part, of_face):
+    """Return which triangles (m,) are in the box around a part of another group."""
+    low, high = V[F].min(axis=1), V[F].max(axis=1)
+    is_near = np.zeros(len(F), dtype=bool)
+    for number, own in enumerate(group):
+        places = V[part == number]
+        is_in = (low <= places.max(axis=0)).all(axis=1) & (high >= places.min(axis=0)).all(axis=1)
+        is_near |= is_in & (of_face != own)
+    return is_near

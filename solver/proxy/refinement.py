@@ -25,11 +25,8 @@ OVERDRAFT = 1.5
 _STEP = 0.6  # of the longest edge, relative to its bound: a round splits longer edges
 
 
-def longest_edges(V, F, part):
-    """Return the maximum edge length of each part, (p,).
-
-    `V`: (n,3), positions in the unit box. `F`: (m,3) int. `part`: (n,) int, part of each vertex.
-    """
+def longest_edges(V, part):
+    """Return the maximum edge length (p,) of each part of V (n,3), in the unit box."""
     return np.maximum(extents(V, part) / FINENESS, 1.0 / FINEST)
 
 

@@ -8,8 +8,8 @@ it is alone. The smaller sheets ride along with what they are linked to.
 
 import numpy as np
 
+from ..mesh.edges import Triangles
 from ..mesh.rest_measures import triangle_areas_and_normals
-from ..mesh.triangles import Triangles
 from .samples import extents
 from .thickness import outward_sign
 
@@ -44,10 +44,7 @@ def planar_sheets(V, F, part):
 
 
 def extrusions(V, F, part):
-    """Return which parts (p,) are extruded outlines, such as letters: two planes, and a rim.
-
-    `V`, `F`, `part`: as of `planar_sheets`.
-    """
+    """Return which parts (p,) are extruded outlines, such as letters: two planes, and a rim."""
     area, normal = triangle_areas_and_normals(V, F)
     of_face = part[F[:, 0]]
     total, moments = moments_of_normals(area, normal, of_face, int(part.max()) + 1)

@@ -65,14 +65,7 @@ def thickness_links(V, normals, areas, part, outward):
 
 
 def facing_pairs(
-    V,
-    normals,
-    areas,
-    part,
-    count=SAMPLES,
-    most=MOST_POINTS,
-    least=FACING,
-    inexactness=INEXACTNESS,
+    V, normals, areas, part, count=SAMPLES, most=MOST_POINTS, least=FACING, inexactness=INEXACTNESS
 ):
     """Return pairs of vertices on opposite sides of a part, and weights of links between them.
 
@@ -112,9 +105,8 @@ def _opposite(V, normals, part, chosen, points, inexactness):
 def _shrink(place, normals, chosen, points, end, radius, inexactness):
     """Shrink balls at chosen vertices (c,) until no other point is inside, in place.
 
-    end : (c,) int array
-        The vertex that each ball ends at, -1 while there is none on an opposite side.
-    radius : (c,) array
+    `end`: (c,) int, the vertex that each ball ends at, -1 while there is none on an opposite side.
+    `radius`: (c,).
     """
     nearest_of = Nearest(place[points])
     p, n = place[chosen], normals[chosen]

@@ -5,8 +5,7 @@ import numpy as np
 
 from ..algebra import columns, dot
 from ..mesh.components import components
-from ..mesh.edges import Edges
-from ..mesh.triangles import distinct
+from ..mesh.edges import Edges, distinct
 
 TOLERANCE = 1e-6
 """of the largest extent; closer vertices are at the same place..."""

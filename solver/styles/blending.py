@@ -6,13 +6,12 @@ function of the Minkowski sum c_1 W_1 + c_2 W_2 (Schneider, Convex Bodies: The B
 Theory, section 1.7), another convex body, so the local step stays exact.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from .forms import cube
-from .polytope import Polytope, minkowski_sum
+from .polytope import minkowski_sum
 
 LEVELS = 8
 """steps from one form to another; each has a body of its own"""
@@ -70,7 +69,7 @@ def _between(styles, first, second, level):
         return one.form
     if len(body.vertices) * len(added.vertices) > MOST_SUMS:
         return one.form
-    return _sum(_Body(body), _Body(added), turn.tobytes(), level)
+    return _sum(body, added, turn.tobytes(), level)
 
 
 def _is_the_same(body, other, turn):
@@ -82,24 +81,11 @@ def _is_the_same(body, other, turn):
     )
 
 
-@dataclass(frozen=True)
-class _Body:
-    """A Polytope that is compared by its values."""
-
-    body: Polytope
-
-    def __eq__(self, other):
-        return self.body.key == other.body.key
-
-    def __hash__(self):
-        return hash(self.body.key)
-
-
 @lru_cache(maxsize=128)
 def _sum(one, other, turn, level):
     share = level / LEVELS
-    turned = other.body.turned(np.frombuffer(turn).reshape(3, 3))
-    return minkowski_sum(one.body.scaled(1.0 - share), turned.scaled(share))
+    turned = other.turned(np.frombuffer(turn).reshape(3, 3))
+    return minkowski_sum(one.scaled(1.0 - share), turned.scaled(share))
 
 
 def _orientations(styles, number):

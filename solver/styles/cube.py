@@ -10,11 +10,6 @@ from ..algebra import columns, cross, times, transposed_times
 from ..aliases import FloatArray
 
 
-def cost(x):
-    """Return the cost |x|_1 of normals x (...,3) in the frame of the cube, least on its axes."""
-    return np.abs(x).sum(axis=-1)
-
-
 class Cube:
     """The cube as the form of a local problem; `Polytopes` is the other one.
 
@@ -32,8 +27,8 @@ class Cube:
         return self
 
     def cost(self, x):
-        """Return the costs (n,) of normals x (n,3) in the frame of the form."""
-        return cost(x)
+        """Return the costs |x|_1 (n,) of normals x (n,3) in the frame of the form."""
+        return np.abs(x).sum(axis=-1)
 
     def starting(self, x):
         """Return the states (n,3) to begin with, for normals x (n,3): no axis active."""

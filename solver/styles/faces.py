@@ -8,7 +8,6 @@ a vertex of the mesh is turned toward: all vertices first, then all edges, then 
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,8 +15,9 @@ from ..aliases import FloatArray, IntArray
 from .polytope import Polytope
 
 
-class FaceArrays(NamedTuple):
-    """One row per face (k of them), and one row per link from a face to one next to it."""
+@dataclass(frozen=True)
+class Faces:
+    """The tables of several bodies: a row per face (k), and per link to one next to it (l)."""
 
     points: FloatArray
     """(k,3) the vertex, the first end of the edge, the foot point of the facet"""
@@ -35,16 +35,6 @@ class FaceArrays(NamedTuple):
     ways: FloatArray
     """(l,3) unit vectors: along the edge from its vertex; from an edge into the facet, whichever of
     the two the link belongs to"""
-
-
-@dataclass(frozen=True)
-class Faces:
-    """The tables of several bodies.
-
-    `bodies`: sequence of Polytope.
-    """
-
-    arrays: FaceArrays
     edge_start: int
     """number of the first edge: how many vertices there are"""
     facet_start: int
@@ -64,11 +54,11 @@ class Faces:
 
     def shared(self, vertex, other):
         """Return the face (n,) that two vertices of one body share, or the other vertex."""
-        return self.between[self.between_start[vertex] + other - self.arrays.vertices[vertex, 0]]
+        return self.between[self.between_start[vertex] + other - self.vertices[vertex, 0]]
 
     def onto_edge(self, points, edge):
         """Return the points (n,3) of edges (n,) nearest to points (n,3), and their faces (n,)."""
-        start, axis, length = (values[edge] for values in self.arrays[:3])
+        start, axis, length = self.points[edge], self.axes[edge], self.lengths[edge]
         along = np.einsum("ni,ni->n", points - start, axis)
         a, b = self.ends_of(edge)
         face = np.where(along <= 0.0, a, np.where(along >= length, b, edge))
@@ -86,22 +76,16 @@ def faces_of(bodies):
     points, axes, lengths, sizes, targets, ways = map(np.concatenate, zip(*rows, strict=True))
     of_bodies = np.stack([starts[:-1, 0], starts[1:, 0]], axis=1)
     ends = sizes.cumsum()
-    arrays = FaceArrays(
-        points,
-        axes,
-        lengths,
-        vertices=np.concatenate([of_bodies.repeat(x, axis=0) for x in counts.T]).astype(np.int32),
-        links=np.stack([ends - sizes, ends], axis=1).astype(np.int32),
-        targets=targets.astype(np.int32),
-        ways=ways,
-    )
+    vertices = np.concatenate([of_bodies.repeat(x, axis=0) for x in counts.T])
+    links = np.stack([ends - sizes, ends], axis=1)
     edge_ends = np.concatenate(
         [body.edges + first[0] for body, first in zip(bodies, offsets[:-1], strict=True)]
     )
     between = [_between(body, first) for body, first in zip(bodies, offsets, strict=False)]
     sizes = np.concatenate([np.full(len(shared), len(shared)) for shared in between])
     return Faces(
-        arrays,
+        *(points, axes, lengths, vertices.astype(np.int32), links.astype(np.int32)),
+        *(targets.astype(np.int32), ways),
         int(totals[0]),
         int(totals[0] + totals[1]),
         edge_ends,

@@ -101,10 +101,7 @@ class Polytope:
         return replace(self, offsets=factor * self.offsets, vertices=factor * self.vertices)
 
     def turned(self, turn: FloatArray) -> Polytope:
-        """Return the body whose cost at x is that of this one at ``turn x``, for (3,3) rotations.
-
-        Reflections are welcome, too.
-        """
+        """Return the body whose cost at x is that of this one at ``turn x``; it may mirror."""
         return replace(self, normals=self.normals @ turn, vertices=self.vertices @ turn)
 
     def cost(self, x: FloatArray) -> FloatArray:
@@ -162,10 +159,7 @@ def from_points(points: ArrayLike) -> Polytope:
 
 
 def hull_planes(points):
-    """Return unit normals (m,3), offsets (m,) and triangles (m,3) of the hull of points (n,3).
-
-    Raises CubicCraftError: as `from_points`.
-    """
+    """Return unit normals, offsets and triangles of a hull, or raise as `from_points`."""
     spatial = _scipy_spatial()
     try:
         hull = spatial.ConvexHull(points)

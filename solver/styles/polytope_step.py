@@ -11,10 +11,7 @@ NEAREST_FACET = 0.9
 
 
 def polytopes(forms, body):
-    """Return the form of local problems.
-
-    `forms`: list of Polytope, without any, it is the cube. `body`: (n,) int, which of several.
-    """
+    """Return the form of local problems: Polytopes by `body` (n,) int or, without any, the cube."""
     return Polytopes(faces_of(forms), body) if forms else CUBE
 
 
@@ -39,12 +36,12 @@ class Polytopes:
 
     def cost(self, x):
         """Return the costs (n,) of normals x (n,3) in the frame of the form."""
-        return np.einsum("ni,ni->n", x, self.faces.arrays.points[self.costliest(x)])
+        return np.einsum("ni,ni->n", x, self.faces.points[self.costliest(x)])
 
     def starting(self, x):
         """Return the states (n,4) to begin with, for normals x (n,3): those of vertices."""
         vertex = self.costliest(x)
-        return np.column_stack([self.faces.arrays.points[vertex], vertex])
+        return np.column_stack([self.faces.points[vertex], vertex])
 
     def begin(self, states):
         """Return what is kept from step to step: s (n,3) and the face (n,)."""
@@ -62,13 +59,13 @@ class Polytopes:
     def constraints(self, kept):
         """Return as `Cube.constraints`."""
         s, face = kept
-        return s, self.active_count(kept), self.faces.arrays.axes[face]
+        return s, self.active_count(kept), self.faces.axes[face]
 
     def next_set(self, kept, moment, x, y, problem, slack):
         """Return as `Cube.next_set`."""
         s, face = kept[0].copy(), kept[1].copy()
         is_kept = np.ones(len(face), bool)
-        fixed = np.einsum("nji,nj->ni", problem.Q, self.faces.arrays.points[face])
+        fixed = np.einsum("nji,nj->ni", problem.Q, self.faces.points[face])
         force = moment - problem.lam[:, None] * np.cross(y, fixed)
         kind = self.active_count(kept)
         for number, step in enumerate((_from_vertex, _from_edge, _from_facet)):
@@ -83,7 +80,7 @@ class Polytopes:
     def split(self, x, states):
         """Return normals x (n,3), moved to where the face of their state costs most."""
         face = states[:, 3].astype(int)
-        axes = self.faces.arrays.axes[face]
+        axes = self.faces.axes[face]
         along = np.einsum("ni,ni->n", x, axes)[:, None] * axes
         is_facet = (face >= self.faces.facet_start)[:, None]
         return np.where(is_facet, along, x - along)
@@ -116,54 +113,54 @@ def _from_vertex(problem, s, face, force, x, y, slack):
     """Go to what the vertex that costs most shares with this one, or to that vertex."""
     faces = problem.form.faces
     best = problem.form.costliest(x)
-    way = faces.arrays.points[best] - faces.arrays.points[face]
+    way = faces.points[best] - faces.points[face]
     size = np.linalg.norm(way, axis=1)
     is_kept = np.einsum("ni,ni->n", way, x) <= slack * size
     shared = faces.shared(face, best)
     is_far = (shared >= faces.facet_start) & (
-        np.einsum("ni,ni->n", faces.arrays.axes[shared], x) < NEAREST_FACET
+        np.einsum("ni,ni->n", faces.axes[shared], x) < NEAREST_FACET
     )
     face = np.where(is_kept, face, np.where(is_far, best, shared))
     is_vertex = (face < faces.edge_start)[:, None]
-    return np.where(is_vertex, faces.arrays.points[face], s), face, is_kept
+    return np.where(is_vertex, faces.points[face], s), face, is_kept
 
 
 def _from_edge(problem, s, face, force, x, y, slack):
     """Find where on the edge s is; go to a vertex beyond it, or to the facet that x has passed."""
-    arrays = problem.form.faces.arrays
-    axis, length = arrays.axes[face], arrays.lengths[face]
+    faces = problem.form.faces
+    axis, length = faces.axes[face], faces.lengths[face]
     p = np.cross(y, np.einsum("nji,nj->ni", problem.Q, axis))
     size = np.maximum(np.einsum("ni,ni->n", p, p), 1e-6)
     along = np.einsum("ni,ni->n", force, p) / (problem.lam * size)
     is_kept = (along >= -slack) & (along <= length + slack)
     inside = np.clip(along, 0.0, length)
-    s = arrays.points[face] + inside[:, None] * axis
+    s = faces.points[face] + inside[:, None] * axis
     a, b = problem.form.faces.ends_of(face)
     next_face = np.where(along < 0.0, a, np.where(along > length, b, face))
-    links = arrays.links[face, :1] + [0, 1]
-    passed = np.einsum("nki,ni->nk", arrays.ways[links], x)
-    facet = np.take_along_axis(arrays.targets[links], passed.argmax(axis=1)[:, None], axis=1)[:, 0]
+    links = faces.links[face, :1] + [0, 1]
+    passed = np.einsum("nki,ni->nk", faces.ways[links], x)
+    facet = np.take_along_axis(faces.targets[links], passed.argmax(axis=1)[:, None], axis=1)[:, 0]
     is_passed = (next_face == face) & (passed.max(axis=1) > slack)
     return s, np.where(is_passed, facet, next_face), is_kept & ~is_passed
 
 
 def _from_facet(problem, s, face, force, x, y, slack):
     """Find where on the facet s is; go to the edge that it has passed, or to one of its ends."""
-    arrays = problem.form.faces.arrays
-    axis = arrays.axes[face]
+    faces = problem.form.faces
+    axis = faces.axes[face]
     aside = np.einsum("nij,nj->ni", problem.Q, np.cross(force, y)) / problem.lam[:, None]
-    s = arrays.points[face] + aside - np.einsum("ni,ni->n", aside, axis)[:, None] * axis
-    begin, end = arrays.links[face].T
+    s = faces.points[face] + aside - np.einsum("ni,ni->n", aside, axis)[:, None] * axis
+    begin, end = faces.links[face].T
     row, link = _pairs(begin, end)
-    edge = arrays.targets[link]
-    inside = np.einsum("ki,ki->k", s[row] - arrays.points[edge], arrays.ways[link])
+    edge = faces.targets[link]
+    inside = np.einsum("ki,ki->k", s[row] - faces.points[edge], faces.ways[link])
     first = np.concatenate([[0], (end - begin).cumsum()[:-1]])
     least = np.minimum.reduceat(inside, first)
     is_worst = inside == least[row]
     worst = np.zeros(len(face), int)
     worst[row[is_worst][::-1]] = edge[is_worst][::-1]
     is_kept, is_inside = least >= -slack, least >= 0.0
-    outside_s, outside_face = problem.form.faces.onto_edge(s, worst)
+    outside_s, outside_face = faces.onto_edge(s, worst)
     return (
         np.where(is_inside[:, None], s, outside_s),
         np.where(is_inside, face, outside_face),
@@ -180,15 +177,14 @@ def _pairs(begin, end):
 
 
 def _nearest(points, polytope, faces, starts):
-    arrays = faces.arrays
     first_edge, first_facet = starts[1], starts[2]
     edges = first_edge + np.arange(len(polytope.edges))
     excess = points @ polytope.normals.T - polytope.offsets
-    links = arrays.links[edges, :1] + [0, 1]
-    away = points[:, None] - arrays.points[edges]
-    inside = np.einsum("nei,eki->nek", away, arrays.ways[links])
+    links = faces.links[edges, :1] + [0, 1]
+    away = points[:, None] - faces.points[edges]
+    inside = np.einsum("nei,eki->nek", away, faces.ways[links])
     is_over = np.ones(excess.shape, bool)  # within the edges of the facet
-    facet = arrays.targets[links] - first_facet
+    facet = faces.targets[links] - first_facet
     for (edge, k), number in np.ndenumerate(facet):
         is_over[:, number] &= inside[:, edge, k] >= 0.0
     is_in = (excess <= 0.0).all(axis=1)
@@ -197,8 +193,8 @@ def _nearest(points, polytope, faces, starts):
     is_on_facet = is_in | np.isfinite(height.max(axis=1))
     lift = np.where(is_in, 0.0, np.maximum(excess[np.arange(len(points)), best], 0.0))
     on_facet = points - lift[:, None] * polytope.normals[best]
-    along = np.einsum("nei,ei->ne", away, arrays.axes[edges]).clip(0.0, arrays.lengths[edges])
-    distance = np.linalg.norm(away - along[..., None] * arrays.axes[edges], axis=2)
+    along = np.einsum("nei,ei->ne", away, faces.axes[edges]).clip(0.0, faces.lengths[edges])
+    distance = np.linalg.norm(away - along[..., None] * faces.axes[edges], axis=2)
     on_edge, face = faces.onto_edge(points, edges[distance.argmin(axis=1)])
     s = np.where(is_on_facet[:, None], on_facet, on_edge)
     return np.column_stack([s, np.where(is_on_facet, first_facet + best, face)])

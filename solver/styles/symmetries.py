@@ -21,32 +21,10 @@ PART = 2_000_000
 """cosines that are computed at a time"""
 
 
-def symmetries(body: Polytope):
-    """Return the rotations (k,3,3) that map a body to itself: a group, the identity first.
-
-    The array is shared and cannot be written to.
-    """
-    return _rotations(*_key(body))
-
-
-def nearest_to_identity(Q, body: Polytope):
-    """Return S Q (3,3) nearest to the identity, for rotations Q into the frame of a body.
-
-    S is one of the body's symmetries.
-    """
-    same = symmetries(body) @ Q
-    return same[np.argmax(np.trace(same, axis1=1, axis2=2))]
-
-
-def _key(body):
-    """Return normals and offsets as bytes, so that equal bodies share what is remembered."""
-    normals, offsets = (np.asarray(a, np.float64) for a in (body.normals, body.offsets))
-    return normals.tobytes(), offsets.tobytes()
-
-
 @lru_cache(maxsize=KEPT)
-def _rotations(normals, offsets):
-    found = _maps(normals, offsets)
+def symmetries(body: Polytope):
+    """Return the rotations (k,3,3) that map a body to itself, the first is 1; read-only."""
+    found = _maps(body.normals, body.offsets / body.offsets.max())
     traces = np.trace(found, axis1=1, axis2=2)
     others = np.delete(found, traces.argmax(), axis=0)
     found = np.concatenate([np.eye(3)[None], others])
@@ -54,10 +32,13 @@ def _rotations(normals, offsets):
     return found
 
 
-def _maps(normals, offsets):
-    n = np.frombuffer(normals).reshape(-1, 3)
-    offsets = np.frombuffer(offsets)
-    r = offsets / offsets.max()
+def nearest_to_identity(Q, body: Polytope):
+    """Return S Q (3,3) nearest to the identity, for a rotation Q and the symmetries S of a body."""
+    same = symmetries(body) @ Q
+    return same[np.argmax(np.trace(same, axis1=1, axis2=2))]
+
+
+def _maps(n, r):
     cosines = n @ n.T
     alike = _alike(r, cosines)
     i, j = _two_facets(cosines, alike.sum(axis=1))

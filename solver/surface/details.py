@@ -64,12 +64,7 @@ def radii(share, whole, thickness, part_sizes, is_alone):
 
 
 def smoothed(
-    graph,
-    radius,
-    coupling,
-    outward: FloatArray | float = 1.0,
-    rounds=ROUNDS,
-    largest_part=0,
+    graph, radius, coupling, outward: FloatArray | float = 1.0, rounds=ROUNDS, largest_part=0
 ):
     """Return the normals (m,3) of triangles without their details, shorter where they disagree.
 

@@ -52,18 +52,14 @@ def _free_memory():
 
 
 class _MemoryStatus(ctypes.Structure):
-    """MEMORYSTATUSEX of Windows; its documentation names the fields."""
+    """MEMORYSTATUSEX of Windows, with the five fields that follow the free memory as one."""
 
     _fields_ = [
         ("dwLength", ctypes.c_uint32),
         ("dwMemoryLoad", ctypes.c_uint32),
         ("ullTotalPhys", ctypes.c_uint64),
         ("ullAvailPhys", ctypes.c_uint64),
-        ("ullTotalPageFile", ctypes.c_uint64),
-        ("ullAvailPageFile", ctypes.c_uint64),
-        ("ullTotalVirtual", ctypes.c_uint64),
-        ("ullAvailVirtual", ctypes.c_uint64),
-        ("ullAvailExtendedVirtual", ctypes.c_uint64),
+        ("others", ctypes.c_uint64 * 5),
     ]
 
 

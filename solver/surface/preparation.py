@@ -10,12 +10,11 @@ from numpy.typing import ArrayLike
 from ..aliases import Faces
 from ..errors import CubicCraftError
 from ..inputs import instance, whole_numbers
-from ..mesh.cotangents import cotangents
+from ..mesh.edges import Triangles
 from ..mesh.mesh_checks import check_mesh, faces_of_triangles
-from ..mesh.rest_measures import areas_and_normals
+from ..mesh.rest_measures import areas_and_normals, cotangents
 from ..mesh.spokes_and_rims import spokes_and_rims
 from ..mesh.topology import topology
-from ..mesh.triangles import Triangles
 from ..proxy import Links, ProxyOptions, no_links, surface_of
 from ..proxy.cavities import links_outside
 from ..proxy.creases import cubic_shares, smoothness
@@ -28,10 +27,7 @@ from .rest import LIGHT, RestMesh
 
 
 def rest_mesh(
-    V: ArrayLike,
-    F: Faces,
-    proxy: ProxyOptions | None = None,
-    faces: ArrayLike | None = None,
+    V: ArrayLike, F: Faces, proxy: ProxyOptions | None = None, faces: ArrayLike | None = None
 ) -> RestMesh:
     """Build the RestMesh of a mesh.
 
@@ -109,36 +105,18 @@ def rest_mesh(
             C = C * factors[:, None]
         skin = spokes_and_rims(V, F, C, triangles.edges)
         to_other_side, across_cavities, across_gaps = search.result() if search else [None] * 3
+    linked = parts.linked(to_neighbors.pairs())
+    walls = to_other_side, across_cavities, across_gaps
     rest = RestMesh(
-        input_positions,
-        surface.input_map,
-        surface.box,
-        V,
-        parts.linked(to_neighbors.pairs()),
-        areas,
-        normals,
-        is_flat,
-        smooth,
-        shares,
-        to_neighbors,
-        to_other_side,
-        across_cavities,
-        across_gaps,
-        proxy,
-        C,
-        skin,
-        skin,
-    )
-    matrices = skin.with_links(V, rest.links)
-    return replace(
-        rest,
-        matrices=matrices,
+        *(input_positions, surface.input_map, surface.box, V, linked, areas, normals),
+        *(is_flat, smooth, shares, to_neighbors, *walls, proxy, C, skin, skin),
         triangles=given,
         unrefined=surface.unrefined,
         pieces=surface.pieces,
         faces=surface.faces,
         given_faces=faces,
     )
+    return replace(rest, matrices=skin.with_links(V, rest.links))
 
 
 def links_within(triangles, normals, areas, part) -> tuple[Links, Links, Links]:

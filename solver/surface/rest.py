@@ -25,11 +25,11 @@ from ..limbs import (
     without_shells,
 )
 from ..limbs.covering import COVERING
+from ..mesh.edges import Triangles
 from ..mesh.face_graph import FaceGraph
 from ..mesh.rest_measures import areas_and_normals, triangle_areas_and_normals
 from ..mesh.spokes_and_rims import SpokesAndRims, spokes_and_rims
 from ..mesh.topology import Topology
-from ..mesh.triangles import Triangles
 from ..mesh.unit_box import UnitBox
 from ..proxy import PAPER, InputMap, Links, ProxyOptions, no_links
 from ..proxy.boxes import box_frames
@@ -43,14 +43,7 @@ from . import details
 
 LIGHT = 0.01
 """weight of planar sheets in place and rotation of what they hang on, in stiffness and links"""
-_OF_THE_SURFACE = (
-    "face_graph",
-    "face_normals",
-    "outward",
-    "shown",
-    "thickness",
-    "unrefined_graph",
-)
+_OF_THE_SURFACE = ("face_graph", "face_normals", "outward", "shown", "thickness", "unrefined_graph")
 """cached properties that links change nothing in"""
 
 
@@ -169,12 +162,7 @@ class RestMesh(Value):
     @property
     def cubic_shares(self) -> FloatArray:
         """(n,) factors of the cubeness: 0 in creases and sheets, more than 1 beside creases."""
-        return np.where(self.is_sheet, 0.0, self.normal_counts)
-
-    @property
-    def normal_counts(self) -> FloatArray:
-        """(n,) how much the `cubic_normals` count: not in creases, more beside them."""
-        return self._drawn[1]
+        return np.where(self.is_sheet, 0.0, self._drawn[1])
 
     @cached_property
     def weighing(self) -> FloatArray:
@@ -239,21 +227,6 @@ class RestMesh(Value):
         return found[nearest]
 
     @cached_property
-    def detail_radii(self) -> FloatArray:
-        """(n,) radius over which normals are averaged, so that details have none of their own."""
-        parts, component = self.topology.part, self.topology.component
-        radii = details.radii(
-            self.options.detail,
-            extents(self.V, component)[component],
-            self.thickness,
-            extents(self.V, parts)[parts],
-            np.bincount(parts)[parts] == np.bincount(component)[component],
-        )
-        if self.options.refine:
-            radii = radii * (1.0 - flat_shares(self.face_graph, parts, self.F))
-        return radii
-
-    @cached_property
     def face_graph(self) -> FaceGraph:
         """The FaceGraph of the surface."""
         return FaceGraph(self.V, self.F)
@@ -271,9 +244,14 @@ class RestMesh(Value):
             return graph.normals
         crease = np.where(self.is_flat, self.smoothness, 1.0)
         lower, upper = (ends[graph.edge] for ends in (graph.edges.lower, graph.edges.upper))
-        radius = self.detail_radii[self.F].mean(axis=1)
+        part, component = self.topology.part, self.topology.component
+        sizes = extents(self.V, component)[component], self.thickness, extents(self.V, part)[part]
+        is_alone = np.bincount(part)[part] == np.bincount(component)[component]
+        radius = details.radii(self.options.detail, *sizes, is_alone)[self.F].mean(axis=1)
+        if self.options.refine:
+            radius *= 1.0 - flat_shares(graph, part[self.F[:, 0]])
         coupling = np.maximum(crease[lower], crease[upper])
-        outward, largest = self.outward[self.F[:, 0], 0], np.bincount(self.topology.part).max()
+        outward, largest = self.outward[self.F[:, 0], 0], np.bincount(part).max()
         return details.smoothed(graph, radius, coupling, outward, largest_part=largest)
 
     @cached_property
@@ -417,7 +395,8 @@ class RestMesh(Value):
             difference = x.take(j) - x.take(i)
             squares += difference * difference
         weighted = -2.0 * matrices.laplacian[is_upper] * squares
-        return self.topology.sum_parts_at(i, weighted)
+        component, count = self.topology.component, self.topology.component_count
+        return np.asarray(np.bincount(component[i], weighted, count), dtype=np.float64)
 
     @cached_property
     def energy_terms(self) -> FloatArray:

@@ -29,7 +29,7 @@ ALLOWED = {
     ("solver/__init__.py", "import_module"),  # its own modules, at their first use
     ("operators/__init__.py", "import_module"),  # its own files
     ("solver/optional_packages.py", "import_module"),  # packages named in our code
-    ("solver/backends/gpu_arch.py", "subprocess"),  # a probe without input
+    ("solver/backends/taichi_runtime.py", "subprocess"),  # a probe without input
     ("solver/backends/engine_lock.py", "ctypes"),  # keeps Taichi's program for ever
     ("solver/surface/memory.py", "ctypes"),  # asks Windows how much memory is free
     ("scripts/build_extension.py", "subprocess"),  # Blender's own tool

@@ -216,13 +216,11 @@ def test_without_pyamg_only_the_local_step_is_on_the_device(monkeypatch, on_a_de
 
 
 def test_a_full_device_is_told(monkeypatch, on_a_device):
-    from solver.backends import device_arrays
-
     def fail(*_):
         raise RuntimeError("out of memory\nin a long story")
 
     on_a_device()
-    monkeypatch.setattr(device_arrays, "_empty_like", fail)
+    monkeypatch.setattr(arrays, "_empty_like", fail)
     with pytest.raises(CubicCraftError, match=r"takes no more arrays \(out of memory\);"):
         stylization()
 
@@ -276,10 +274,10 @@ def test_memory_on_the_device_is_given_back():
         ON_A_DEVICE
         + f"""
         import resource
-        runtime = start({DEVICE!r})
+        device, _ = start({DEVICE!r})
         values = np.ones((300_000, 3))
         def keep():
-            of_a_run = arrays.arrays_for(runtime.device)
+            of_a_run = arrays.arrays_for(device)
             of_a_run.keep(values)
             np.testing.assert_array_equal(of_a_run.fetch(of_a_run.keep(values[:, 0])), 1.0)
         keep()

@@ -66,7 +66,7 @@ def test_the_first_result_takes_nothing_that_it_does_not_need():
         assert not calls["replaced"], "the engine's own module was changed for a time"
         assert not calls["version"] and "TI_SKIP_VERSION_CHECK" not in os.environ
         # a function for the engine costs as much at every start as a tenth of a whole kernel
-        ours = {"kernels", "covariances", "active_set"}
+        ours = {"kernels", "active_set"}
         assert set(calls["compiled"]) == {f"solver.backends.taichi_{name}" for name in ours}, calls
         for large in ("taichi_motion_kernels", "taichi_cycle_kernels"):
             assert f"solver.backends.{large}" not in sys.modules

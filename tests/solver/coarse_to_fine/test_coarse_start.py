@@ -69,7 +69,7 @@ def gaps_of_first_iterations(V, F, tolerance, large, device):
 @pytest.mark.parametrize("is_ordered", [False, True])
 def test_the_first_iteration_is_near_the_end(is_ordered, large, device, monkeypatch):
     if is_ordered:  # the vertices of a coarser mesh have then another order than it was made in
-        monkeypatch.setattr("solver.mesh.vertex_order.LEAST_VERTICES", 300)
+        monkeypatch.setattr("solver.proxy.surface.REORDERED_FROM", 300)
     from_rest, from_coarse = gaps_of_first_iterations(*shapes.blob(5), 1e-3, large, device)
     assert from_coarse < 0.5 * from_rest
 

@@ -9,9 +9,8 @@ import pytest
 from shapes import blob, extent, rotation, sheet, squares
 
 from solver import PAPER, low_poly, stylize
-from solver.facets.joining import crowded, joined, without_needless
+from solver.facets.joining import crowded, joined, straightened, without_needless
 from solver.facets.polygons import crossings
-from solver.facets.straight import straightened
 
 SIDES = np.concatenate([np.eye(3), -np.eye(3)])
 

@@ -12,9 +12,8 @@ from optional_marks import needs
 
 from solver import PAPER, CubicCraftError, Setup
 from solver.global_step import factorization
-from solver.global_step.centring import Centring
-from solver.global_step.step import GlobalStep
-from solver.mesh.cotangents import cotangents
+from solver.global_step.step import Centring, GlobalStep
+from solver.mesh.rest_measures import cotangents
 from solver.mesh.spokes_and_rims import spokes_and_rims
 from solver.optional_packages import optional_package
 from solver.surface.preparation import rest_mesh

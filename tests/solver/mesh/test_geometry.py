@@ -8,9 +8,8 @@ import shapes
 from solver import PAPER, CubicCraftError
 from solver.mesh import polygons
 from solver.mesh.components import components
-from solver.mesh.cotangents import MAX_COTANGENT, cotangents
 from solver.mesh.mesh_checks import check_mesh
-from solver.mesh.rest_measures import areas_and_normals
+from solver.mesh.rest_measures import MAX_COTANGENT, areas_and_normals, cotangents
 from solver.mesh.unit_box import unit_box
 from solver.surface.preparation import rest_mesh
 

@@ -6,7 +6,7 @@ import pytest
 import shapes
 
 from solver.mesh import edge_vectors
-from solver.mesh.cotangents import cotangents
+from solver.mesh.rest_measures import cotangents
 from solver.mesh.spokes_and_rims import spokes_and_rims
 
 

@@ -9,8 +9,8 @@ from proxy_shapes import uv_sphere
 from shapes import rotation
 
 from solver import PAPER, HandlePose, Style, flip, join_pieces, piece_of, run
-from solver.pieces.own_symmetry import with_own_symmetry
 from solver.pieces.subdivided import Subdivided
+from solver.pieces.symmetry import with_own_symmetry
 from solver.styles.forms import tetrahedron
 
 

@@ -78,14 +78,13 @@ def test_all_forms_differ_as_much_in_their_costs_as_the_cube(name):
 
 def test_links_lead_to_and_fro():
     faces = faces_of([POLYTOPES["dodecahedron"](), POLYTOPES["pyramid"]()])
-    a = faces.arrays
-    near = [set(a.targets[begin:end]) for begin, end in a.links]
+    near = [set(faces.targets[begin:end]) for begin, end in faces.links]
     for edge, (first, second) in enumerate(faces.edge_ends, faces.edge_start):
         assert len(near[edge]) == 2
         assert all(edge in near[facet] for facet in near[edge])
         assert edge in near[first] and edge in near[second]
         assert faces.shared(first, second) == faces.shared(second, first) == edge
-    np.testing.assert_allclose(np.linalg.norm(a.ways, axis=1), 1.0)
+    np.testing.assert_allclose(np.linalg.norm(faces.ways, axis=1), 1.0)
 
 
 def test_points_give_the_hull_about_their_origin():

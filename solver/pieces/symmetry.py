@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pieces that are solved together stay symmetric about a common plane, without being asked.
+"""What is symmetric at rest stays so, without being asked: a piece, or several that are linked.
+
+Samples of links and the order of sums are never exactly symmetric, and a tail between two sides of
+a cube goes to either of them.
 
 A character has clothes, eyes and shoes: some are their own image about the plane of its body, some
 are each other's. What holds on to each other, by links, is one figure. It has the planes of those
@@ -11,17 +14,19 @@ which then is no descent (a table with one of three legs in its plane lost much 
 """
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from ..aliases import FloatArray
 from ..mesh.components import components
 from ..surface.symmetry import MATCHING, NO_PARTNER, Mirror, partners
-from .mirrored_styles import looks_alike
+from .mirrored_styles import is_own_image, looks_alike
 from .piece import Piece
 from .reflection import flip
 from .shape import LEAST_MATCHING
+from .subdivided import Subdivided
 
 if TYPE_CHECKING:  # SciPy is loaded when it is needed, not for its names
     from ..surface.rest import RestMesh
@@ -31,12 +36,49 @@ _EVEN = 0.01  # of weights
 _MOST = 4  # planes of one figure that are looked at
 _SAMPLE = 400  # vertices, by half of which most planes are known not to be one of the figure
 
+T = TypeVar("T", bound=Piece)
+
+
+def with_own_symmetry(piece: T, up: FloatArray | None = None) -> T:
+    """Return a piece that is solved alone, symmetric about the axes about which it is at rest.
+
+    With a direction `up` (3,), where it is solved, only about planes that contain it: what keeps
+    its place on the floor is shifted afterward.
+
+    Neither where its form is not its own image, nor where handles, regions or painted weights are
+    not symmetric. One with a symmetry that was asked for stays as it is.
+    """
+    whole = piece.whole
+    if whole.matching is not None or piece.may_lose_symmetry:
+        return piece
+    axes = tuple(
+        is_symmetric and is_own_image(flip(axis), piece.placement, up)
+        for axis, is_symmetric in enumerate(piece.shape.symmetric_axes)
+    )
+    if not any(axes):
+        return piece
+    is_smooth = isinstance(whole, Subdivided)
+    found = piece.shape.whole(whole.reflections, axes, is_smooth=is_smooth)
+    if not all(_is_even_itself(piece, mirror) for mirror in found.own_partners):
+        return piece
+    return replace(piece, whole=found)
+
+
+def _is_even_itself(piece: Piece, mirror: Mirror):
+    """Return whether what is given for each vertex is the same for its partner."""
+    has_one = mirror.partner >= 0
+    partner = mirror.partner[has_one]
+    is_in_handle = piece.handle_of >= 0
+    if (is_in_handle[has_one] != is_in_handle[partner]).any():
+        return False
+    for weights in map(np.asarray, (piece.map_weights, piece.detail_weights)):
+        if weights.ndim and np.abs(weights[has_one] - weights[partner]).max() > _EVEN:
+            return False
+    return True
+
 
 def common_planes(pieces: Sequence[Piece], rest: "RestMesh") -> tuple[Mirror, ...]:
-    """Return the planes about which what is linked is symmetric at rest, each with its vertices.
-
-    `rest`: of all of them.
-    """
+    """Return the planes about which what is linked in `rest` is symmetric."""
     of_vertex = np.repeat(np.arange(len(pieces)), [piece.solved for piece in pieces])
     figure = _figures(rest, of_vertex, len(pieces))
     area = np.bincount(of_vertex[rest.used], rest.areas * ~rest.is_sheet, len(pieces))

@@ -7,13 +7,13 @@ import shapes
 from devices import by_device
 
 from solver import PAPER, rest_mesh, stylize
-from solver.mesh.vertex_order import vertex_order
+from solver.proxy.surface import _vertex_order
 
 
 @pytest.fixture
 def ordered(monkeypatch):
     """Let the meshes of a test be put in order from now on."""
-    return lambda: monkeypatch.setattr("solver.mesh.vertex_order.LEAST_VERTICES", 0)
+    return lambda: monkeypatch.setattr("solver.proxy.surface.REORDERED_FROM", 0)
 
 
 def shuffled(V, F):
@@ -28,7 +28,7 @@ def test_each_vertex_has_its_place_and_neighbours_are_near(name, ordered):
     plain = rest_mesh(V, F, PAPER)
     assert (np.diff(plain.used) > 0).all()
     ordered()
-    order = vertex_order(plain.F, len(plain.V))
+    order = _vertex_order(plain.F, len(plain.V))
     np.testing.assert_array_equal(np.sort(order), np.arange(len(plain.V)))
     rest = rest_mesh(V, F, PAPER)
     np.testing.assert_array_equal(rest.used, plain.used[order])
