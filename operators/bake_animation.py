@@ -14,8 +14,6 @@ from ._shared.watched_operator import WatchedOperator
 
 
 class CUBIC_CRAFT_OT_bake_animation(WatchedOperator, BakeProperties, bpy.types.Operator):
-    """Bake the cubic version of each frame of the selected objects."""
-
     bl_idname = "cubic_craft.bake_animation"
     bl_label = "Cubify Animation"
     bl_description = (

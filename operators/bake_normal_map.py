@@ -13,8 +13,6 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_bake_normal_map(NormalMapProperties, bpy.types.Operator):
-    """Make a low-poly version of the active cubic mesh, with a normal map."""
-
     bl_idname = "cubic_craft.bake_normal_map"
     bl_label = "Bake Normal Map"
     bl_description = (

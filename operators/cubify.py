@@ -38,8 +38,6 @@ from ._shared.watched_operator import WatchedOperator
 
 
 class CUBIC_CRAFT_OT_cubify(WatchedOperator, RunProperties, bpy.types.Operator):
-    """Turn the selected meshes into cubic sculptures; each starts from its original shape."""
-
     bl_idname = "cubic_craft.cubify"
     bl_label = "Cubify"
     bl_description = (

@@ -14,8 +14,6 @@ _CONFIRM = ("RET", "NUMPAD_ENTER")
 
 
 class CUBIC_CRAFT_OT_live(bpy.types.Operator):
-    """Watch the selected meshes become cubic while settings are changed."""
-
     bl_idname = "cubic_craft.live"
     bl_label = "Live"
     bl_description = (
@@ -104,8 +102,6 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
 
 
 class CUBIC_CRAFT_OT_live_cancel(bpy.types.Operator):
-    """Cancel Live with a button."""
-
     bl_idname = "cubic_craft.live_cancel"
     bl_label = "Cancel Live"
     bl_description = "End Live and restore the previous shape of the meshes"

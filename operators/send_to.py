@@ -15,8 +15,6 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
-    """Write the selected meshes to a file for another program."""
-
     bl_idname = "cubic_craft.send_to"
     bl_label = "Send To"
     bl_description = (
