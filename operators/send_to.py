@@ -114,5 +114,4 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
             with_groups=self.groups,
             scale=scale,
         )
-        sent = send(self.target, objects, path, options)
-        return report_all(self, sent.done, sent.problems)
+        return report_all(self, *send(self.target, objects, path, options))
