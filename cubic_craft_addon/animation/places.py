@@ -11,7 +11,7 @@ import bpy
 
 from ...solver import CubicCraftError
 from ..environment.file_names import file_stems, folded
-from .exchange import SUFFIXES
+from .playback import SUFFIXES
 from .properties import SOURCE
 
 _UNFINISHED = ".unfinished"  # suffix of the folders of recordings

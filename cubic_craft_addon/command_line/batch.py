@@ -16,7 +16,7 @@ from ...solver.console.output import InputError, check_outputs
 from .options.arguments import options_for
 from .options.formats import READABLE
 from .process.output_files import written
-from .process.progress import ProgressBar
+from .process.progress import say
 from .process.quiet import one_line
 
 
@@ -46,14 +46,14 @@ def run_batch(
     `run`: does what the options of one file say and returns its report; it is given when that
     begins. `complain`: prints a line about what is wrong.
     """
-    bar, count = ProgressBar(), len(jobs)
+    count = len(jobs)
 
     def work(numbered: tuple[int, Job]) -> dict[str, Any]:
         number, job = numbered
         outputs = [str(path) for path in job.outputs]
         is_kept = bool(outputs) and job.is_done and not options.force
         end = ": kept, it was done before" if is_kept else ""
-        bar.say(f"{number} of {count}, {one_line(job.path.name)}{end}")
+        say(f"{number} of {count}, {one_line(job.path.name)}{end}")
         if is_kept:
             return {"status": KEPT, "outputs": outputs}
         return {"outputs": outputs, "report": run(job.options, time.perf_counter())}
@@ -80,7 +80,12 @@ def jobs_of(options: Namespace) -> list[Job]:
     for name, path in _named(found).items():
         own = options_for(options, name, path)
         jobs.append(Job(path, own, written(own)))
-    _check_folder(options)
+    folders = {path.resolve() for path in options.inputs if path.is_dir()}
+    if options.save_mesh and options.output_folder.resolve() in folders:
+        raise InputError(
+            f"--output-folder {options.output_folder}: is the folder of the inputs as well, where "
+            "the meshes would be inputs the next time; choose another, it may lie in this one"
+        )
     inputs = [*(job.path for job in jobs), options.handles_file, options.form_object]
     for folder in {path.parent for job in jobs for path in job.outputs} | {options.output_folder}:
         sources.make_folder(f"--output-folder {options.output_folder}", folder)
@@ -88,7 +93,7 @@ def jobs_of(options: Namespace) -> list[Job]:
         if job.outputs:
             check_outputs("--output-folder", job.outputs, filter(None, inputs))
     if kinds:
-        ProgressBar().say(f"left out, of kinds that are not read: {one_line(in_words(kinds))}")
+        say(f"left out, of kinds that are not read: {one_line(in_words(kinds))}")
     return jobs
 
 
@@ -117,13 +122,3 @@ def _named(found: list[tuple[Path, Path]]) -> dict[str, Path]:
 def _folded(name: PurePath) -> str:
     """Return what is the same for names that are the same file somewhere."""
     return unicodedata.normalize("NFC", name.as_posix()).casefold()
-
-
-def _check_folder(options: Namespace) -> None:
-    """Refuse results that are taken for inputs the next time."""
-    folders = {path.resolve() for path in options.inputs if path.is_dir()}
-    if options.save_mesh and options.output_folder.resolve() in folders:
-        raise InputError(
-            f"--output-folder {options.output_folder}: is the folder of the inputs as well, where "
-            "the meshes would be inputs the next time; choose another, it may lie in this one"
-        )
