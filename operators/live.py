@@ -7,6 +7,7 @@ All decisions are in ``cubic_craft_addon/live``.
 import bpy
 
 from ..cubic_craft_addon import live
+from ..cubic_craft_addon.screen.redraw import waiting
 from ..solver import CubicCraftError
 from ._shared.selection import poll_usable, report_all, selected_meshes
 
@@ -38,14 +39,12 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         if session is not None:
             session.on(live.Event.CONFIRM)
             return {"CANCELLED"}  # the running one ends with the undo step
-        context.window.cursor_modal_set("WAIT")
         try:
-            self._session = live.begin(context, selected_meshes(context))
+            with waiting(context.window):
+                self._session = live.begin(context, selected_meshes(context))
         except CubicCraftError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        finally:
-            context.window.cursor_modal_restore()
         # On the window, not on an area, which the artist may close, join or maximize.
         with context.temp_override(area=None, region=None):
             context.window_manager.modal_handler_add(self)
