@@ -10,7 +10,8 @@ from pathlib import Path
 import bpy
 
 from ...solver import CubicCraftError
-from ..environment.file_names import file_stems, folded
+from ...solver.console.sources import folded
+from ..environment.file_names import file_stems
 from .playback import SUFFIXES
 from .properties import SOURCE
 

@@ -3,16 +3,16 @@
 
 import os
 import time
-import unicodedata
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...solver.console import sources
 from ...solver.console.many import KEPT, in_words, one_by_one
 from ...solver.console.output import InputError, check_outputs
+from ...solver.console.sources import folded
 from .options.arguments import options_for
 from .options.formats import READABLE
 from .process.output_files import written
@@ -105,20 +105,15 @@ def _named(found: list[tuple[Path, Path]]) -> dict[str, Path]:
     """
     # Links stay what they are called.
     places = {os.path.abspath(path): (path, path.relative_to(folder)) for path, folder in found}  # noqa: PTH100
-    count = Counter(_folded(place.with_suffix("")) for _, place in places.values())
+    count = Counter(folded(place.with_suffix("").as_posix()) for _, place in places.values())
     named: dict[str, Path] = {}
     taken: dict[str, Path] = {}
     for path, place in places.values():
-        name = place.with_suffix("")
-        if count[_folded(name)] > 1:
-            name = place.with_name(f"{place.stem}_{place.suffix[1:]}")
-        other = taken.setdefault(_folded(name), path)
+        name = place.with_suffix("").as_posix()
+        if count[folded(name)] > 1:
+            name = place.with_name(f"{place.stem}_{place.suffix[1:]}").as_posix()
+        other = taken.setdefault(folded(name), path)
         if other != path:
             raise InputError(f"{path}: its results would have the names of {other}; rename it")
-        named[name.as_posix()] = path
+        named[name] = path
     return named
-
-
-def _folded(name: PurePath) -> str:
-    """Return what is the same for names that are the same file somewhere."""
-    return unicodedata.normalize("NFC", name.as_posix()).casefold()

@@ -18,8 +18,8 @@ from typing import Any
 import bpy
 
 from ...solver import CubicCraftError
+from ...solver.console.sources import folded
 from ...solver.method import LOOK
-from ..environment.file_names import folded
 from ..object_properties import PROPERTY
 from .included import INCLUDED
 
