@@ -12,6 +12,9 @@ from collections.abc import Callable, Iterator
 import bpy
 from bpy.props import BoolProperty, PointerProperty
 
+from .environment.declared import added
+from .mesh_bridge import after_errors
+
 _SOURCE = "cubic_craft_stands_for"
 _NOTE = "cubic_craft_hidden"
 
@@ -66,15 +69,9 @@ def as_it_was(source: bpy.types.Object) -> Callable[[], None]:
     return put_back
 
 
-@contextlib.contextmanager
-def source_kept(source: bpy.types.Object | None) -> Iterator[None]:
+def source_kept(source: bpy.types.Object | None) -> contextlib.AbstractContextManager[None]:
     """Show a source, if there is one, as it was before if the block raises."""
-    put_back = (lambda: None) if source is None else as_it_was(source)
-    try:
-        yield
-    except BaseException:
-        put_back()
-        raise
+    return contextlib.nullcontext() if source is None else after_errors(as_it_was(source))
 
 
 def hidden_source(obj: bpy.types.Object) -> bpy.types.Object | None:
@@ -105,14 +102,8 @@ def _all_layers() -> Iterator[bpy.types.ViewLayer]:
     return (layer for scene in bpy.data.scenes for layer in scene.view_layers)
 
 
-def register():
-    """Add the properties of objects."""
-    source = PointerProperty(type=bpy.types.Object, options={"HIDDEN"})
-    setattr(bpy.types.Object, _SOURCE, source)
-    setattr(bpy.types.Object, _NOTE, BoolProperty(options={"HIDDEN"}))
-
-
-def unregister():
-    """Remove them."""
-    delattr(bpy.types.Object, _NOTE)
-    delattr(bpy.types.Object, _SOURCE)
+_properties = {
+    _SOURCE: PointerProperty(type=bpy.types.Object, options={"HIDDEN"}),
+    _NOTE: BoolProperty(options={"HIDDEN"}),
+}
+register, unregister = added(bpy.types.Object, _properties)

@@ -20,9 +20,10 @@ _modules = (
     form_pictures,
     region,
     properties,
+    animation_properties.bake_settings,
     animation_properties,
     hidden_source,
-    send_properties,
+    send_properties.normal_map_settings,
     preferences,
     live,
     job,
@@ -44,7 +45,8 @@ _modules = (
 def register():
     """Register all modules."""
     for module in _modules:
-        module.register()
+        if hasattr(module, "register"):  # some only have something to end
+            module.register()
 
 
 def unregister():

@@ -9,8 +9,6 @@ from ._shared.originals import OnOriginals
 
 
 class CUBIC_CRAFT_OT_apply(OnOriginals, bpy.types.Operator):
-    """Keep the cubic shape permanently and discard the original."""
-
     bl_idname = "cubic_craft.apply"
     bl_label = "Apply"
     bl_description = "Keep the cubic shape permanently and discard the original"

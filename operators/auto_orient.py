@@ -17,8 +17,6 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_auto_orient(bpy.types.Operator):
-    """Rotate the form to fit the shape best."""
-
     bl_idname = "cubic_craft.auto_orient"
     bl_label = "Auto Orient"
     bl_description = (

@@ -7,15 +7,13 @@ import bpy
 
 from ..cubic_craft_addon.animation.bake import Bake, BakeOptions
 from ..cubic_craft_addon.animation.properties import BakeProperties, bake_settings, source_of
-from ..cubic_craft_addon.animation.sources import OfSources
+from ..cubic_craft_addon.animation.sources import settings_of_sources
 from ..solver import CubicCraftError
 from ._shared.selection import poll_sources, selected_sources
 from ._shared.watched_operator import WatchedOperator
 
 
 class CUBIC_CRAFT_OT_bake_animation(WatchedOperator, BakeProperties, bpy.types.Operator):
-    """Bake the cubic version of each frame of the selected objects."""
-
     bl_idname = "cubic_craft.bake_animation"
     bl_label = "Cubify Animation"
     bl_description = (
@@ -34,7 +32,7 @@ class CUBIC_CRAFT_OT_bake_animation(WatchedOperator, BakeProperties, bpy.types.O
         sources = list(dict.fromkeys(map(source_of, selected_sources(context))))
         if not sources:
             raise CubicCraftError("Select an object with a mesh first")
-        return Bake(OfSources(sources), sources, self._options(context.scene))
+        return Bake(settings_of_sources(sources), sources, self._options(context.scene))
 
     def _options(self, scene):
         values = bake_settings.given(self, scene)

@@ -5,6 +5,7 @@ import bpy
 
 from ..cubic_craft_addon import mesh_bridge
 from ..cubic_craft_addon.handles.owner import panel_object
+from ..cubic_craft_addon.screen.redraw import waiting
 from ..cubic_craft_addon.send.normal_map import make_normal_map
 from ..cubic_craft_addon.send.properties import MapOptions, NormalMapProperties, normal_map_settings
 from ..solver import CubicCraftError
@@ -13,8 +14,6 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_bake_normal_map(NormalMapProperties, bpy.types.Operator):
-    """Make a low-poly version of the active cubic mesh, with a normal map."""
-
     bl_idname = "cubic_craft.bake_normal_map"
     bl_label = "Bake Normal Map"
     bl_description = (
@@ -38,13 +37,8 @@ class CUBIC_CRAFT_OT_bake_normal_map(NormalMapProperties, bpy.types.Operator):
         if obj is None:
             raise CubicCraftError("Select a mesh object first")
         values = normal_map_settings.given(self, context.scene)
-        if context.window is not None:
-            context.window.cursor_set("WAIT")
-        try:
+        with waiting(context.window):
             made = make_normal_map(obj, MapOptions(**values))
-        finally:
-            if context.window is not None:
-                context.window.cursor_set("DEFAULT")
         where = "packed" if made.image.packed_file else made.image.filepath
         count = len(mesh_bridge.mesh_of(made.object).polygons)
         done = (

@@ -31,15 +31,13 @@ from ..cubic_craft_addon.settings.overrides import (
     values_of,
 )
 from ..cubic_craft_addon.settings.properties import START, RunProperties
-from ..cubic_craft_addon.ui.settings_rows import draw_advanced, draw_solver, draw_volume
+from ..cubic_craft_addon.ui import settings_rows as rows
 from ..solver import CubicCraftError
 from ._shared.selection import poll_sources, selected_meshes, selected_sources
 from ._shared.watched_operator import WatchedOperator
 
 
 class CUBIC_CRAFT_OT_cubify(WatchedOperator, RunProperties, bpy.types.Operator):
-    """Turn the selected meshes into cubic sculptures; each starts from its original shape."""
-
     bl_idname = "cubic_craft.cubify"
     bl_label = "Cubify"
     bl_description = (
@@ -103,15 +101,12 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, RunProperties, bpy.types.Operator):
                 layout.prop_search(self, name, context.blend_data, "objects")
             else:
                 layout.prop(self, name)
-        layout.prop(self, "space")
-        if self.space == "FRAME":
-            layout.prop_search(self, "frame", context.blend_data, "objects")
-        layout.prop(self, "orientation")
-        draw_volume(layout, self)
+        rows.draw_orientation(layout, self, is_by_name=True)
+        rows.draw_volume(layout, self)
         layout.prop(self, "keep_symmetric")
         layout.row(align=True).prop(self, "symmetry", toggle=True)
         layout.prop(self, "floor")
-        draw_advanced(layout, self)
+        rows.draw_advanced(layout, self)
         layout.prop(self, "use_handles")
         layout.prop(self, "hold_rest")
         groups = panel_object(context)
@@ -123,7 +118,7 @@ class CUBIC_CRAFT_OT_cubify(WatchedOperator, RunProperties, bpy.types.Operator):
         if self.result == "NEW_OBJECT":
             layout.prop(self, "with_modifiers")
         layout.prop(self, "sharp_edges")
-        draw_solver(layout, self)
+        rows.draw_solver(layout, self)
 
 
 def _asks_for_what_is_seen(operator, context):
@@ -141,30 +136,22 @@ def _asks_for_what_is_seen(operator, context):
 @glimpse.quiet()
 def _adopt_settings(operator, objects):
     """Take unset values from the active object, so that Adjust Last Operation shows them."""
-    if objects[0].type != "MESH":
-        _set_for_new_mesh(operator)
+    if objects[0].type != "MESH":  # the only possible values for texts, curves and the like
+        _set_unset(operator, {"result": "NEW_OBJECT", "with_modifiers": True})
         if not has_properties(objects[0]):
             return  # and it should have none: it is not changed
-    source = object_properties(objects[0])
-    for name, value in values_of(source).items():
-        if name in OF_EACH_OBJECT and len(objects) > 1:
-            continue
-        if not operator.properties.is_property_set(name):
-            setattr(operator, name, value)
+    source, kept = object_properties(objects[0]), OF_EACH_OBJECT if len(objects) > 1 else ()
+    _set_unset(operator, {n: value for n, value in values_of(source).items() if n not in kept})
     if len(objects) == 1 and objects[0].type == "MESH":
         mesh = mesh_bridge.mesh_of(objects[0])
         operator.is_edited = mesh_bridge.has_strokes(mesh) or mesh_bridge.is_edited(mesh)
-        if not operator.properties.is_property_set("start"):
-            operator.start = source.start
-    for name in asked_for(values_of(operator)):
-        pointer = getattr(source, name)
-        if pointer is not None and not operator.properties.is_property_set(name):
-            setattr(operator, name, pointer.name)
+        _set_unset(operator, {"start": source.start})
+    pointers = {name: getattr(source, name) for name in asked_for(values_of(operator))}
+    _set_unset(operator, {name: obj.name for name, obj in pointers.items() if obj is not None})
 
 
-def _set_for_new_mesh(operator):
-    """Set the only possible values for texts, curves and the like, unless the caller has."""
-    for name, value in (("result", "NEW_OBJECT"), ("with_modifiers", True)):
+def _set_unset(operator, values):
+    for name, value in values.items():
         if not operator.properties.is_property_set(name):
             setattr(operator, name, value)
 
@@ -172,17 +159,13 @@ def _set_for_new_mesh(operator):
 def _overrides(operator, active):
     names = tuple(n for n in (*ALL, "start") if operator.properties.is_property_set(n))
     pointers = find_pointers(values_of(operator, tuple(POINTERS)), values_of(operator), active)
-    is_given = operator.properties.is_property_set("handles")
-    return SettingsOverrides(
-        values_of(operator, names), pointers, _handles(operator) if is_given else None
-    )
-
-
-def _handles(operator):
-    return tuple(
-        Handle(item.name, threshold=item.threshold, matrix=_affine(item))
-        for item in operator.handles
-    )
+    handles = None
+    if operator.properties.is_property_set("handles"):
+        handles = tuple(
+            Handle(item.name, threshold=item.threshold, matrix=_affine(item))
+            for item in operator.handles
+        )
+    return SettingsOverrides(values_of(operator, names), pointers, handles)
 
 
 def _affine(item):

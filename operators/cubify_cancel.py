@@ -8,8 +8,6 @@ from ._shared.selection import poll_idle
 
 
 class CUBIC_CRAFT_OT_cubify_cancel(bpy.types.Operator):
-    """Cancel what is running, like Esc."""
-
     bl_idname = "cubic_craft.cubify_cancel"
     bl_label = "Cancel"
     bl_description = (

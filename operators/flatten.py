@@ -13,8 +13,6 @@ from ._shared.selection import poll_any_usable, poll_meshes, selected_meshes
 
 
 class CUBIC_CRAFT_OT_flatten(OnOriginals, bpy.types.Operator):
-    """Make the sides of the selected cubic meshes exactly planar."""
-
     bl_idname = "cubic_craft.flatten"
     bl_label = "Flatten Facets"
     bl_description = (

@@ -19,8 +19,6 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_form_from_selection(bpy.types.Operator):
-    """Make the selected faces the sides of the form."""
-
     bl_idname = "cubic_craft.form_from_selection"
     bl_label = "Directions from Selection"
     bl_description = (

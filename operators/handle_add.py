@@ -9,8 +9,6 @@ from ._shared.groups import AddsGroup, AddsSelection
 
 
 class CUBIC_CRAFT_OT_handle_add(AddsGroup, bpy.types.Operator):
-    """Hold the vertices of a vertex group."""
-
     bl_idname = "cubic_craft.handle_add"
     bl_label = "Add Handle"
     bl_description = (
@@ -30,8 +28,6 @@ class CUBIC_CRAFT_OT_handle_add(AddsGroup, bpy.types.Operator):
 
 
 class CUBIC_CRAFT_OT_handle_pin_selection(AddsSelection, bpy.types.Operator):
-    """Hold the selected vertices."""
-
     bl_idname = "cubic_craft.handle_pin_selection"
     bl_label = "Pin Selection"
     bl_description = (

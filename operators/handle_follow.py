@@ -12,8 +12,6 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_handle_follow(bpy.types.Operator):
-    """Make an empty that the active handle follows."""
-
     bl_idname = "cubic_craft.handle_follow"
     bl_label = "Follow an Empty"
     bl_description = (

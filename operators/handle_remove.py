@@ -10,8 +10,6 @@ from ._shared.selection import poll_handle
 
 
 class CUBIC_CRAFT_OT_handle_remove(bpy.types.Operator):
-    """Release the vertices of the active handle."""
-
     bl_idname = "cubic_craft.handle_remove"
     bl_label = "Remove Handle"
     bl_description = (

@@ -13,8 +13,6 @@ from ._shared.selection import poll_mesh, refuse
 
 
 class CUBIC_CRAFT_OT_handle_reset_pose(bpy.types.Operator):
-    """Remove the handles' own poses, and return their targets to their initial positions."""
-
     bl_idname = "cubic_craft.handle_reset_pose"
     bl_label = "Reset Pose"
     bl_description = (

@@ -7,6 +7,7 @@ All decisions are in ``cubic_craft_addon/live``.
 import bpy
 
 from ..cubic_craft_addon import live
+from ..cubic_craft_addon.screen.redraw import waiting
 from ..solver import CubicCraftError
 from ._shared.selection import poll_usable, report_all, selected_meshes
 
@@ -14,8 +15,6 @@ _CONFIRM = ("RET", "NUMPAD_ENTER")
 
 
 class CUBIC_CRAFT_OT_live(bpy.types.Operator):
-    """Watch the selected meshes become cubic while settings are changed."""
-
     bl_idname = "cubic_craft.live"
     bl_label = "Live"
     bl_description = (
@@ -40,14 +39,12 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
         if session is not None:
             session.on(live.Event.CONFIRM)
             return {"CANCELLED"}  # the running one ends with the undo step
-        context.window.cursor_modal_set("WAIT")
         try:
-            self._session = live.begin(context, selected_meshes(context))
+            with waiting(context.window):
+                self._session = live.begin(context, selected_meshes(context))
         except CubicCraftError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        finally:
-            context.window.cursor_modal_restore()
         # On the window, not on an area, which the artist may close, join or maximize.
         with context.temp_override(area=None, region=None):
             context.window_manager.modal_handler_add(self)
@@ -104,8 +101,6 @@ class CUBIC_CRAFT_OT_live(bpy.types.Operator):
 
 
 class CUBIC_CRAFT_OT_live_cancel(bpy.types.Operator):
-    """Cancel Live with a button."""
-
     bl_idname = "cubic_craft.live_cancel"
     bl_label = "Cancel Live"
     bl_description = "End Live and restore the previous shape of the meshes"

@@ -12,8 +12,6 @@ _GROUP = "Cubeness"
 
 
 class CUBIC_CRAFT_OT_paint_map(bpy.types.Operator):
-    """Go to Weight Paint Mode with the cubeness map, or back."""
-
     bl_idname = "cubic_craft.paint_map"
     bl_label = "Paint Map"
     bl_description = (

@@ -12,8 +12,6 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_preset_add(bpy.types.Operator):
-    """Save the look that the panel shows as a preset, for all files."""
-
     bl_idname = "cubic_craft.preset_add"
     bl_label = "Save Preset"
     bl_description = (
@@ -48,8 +46,6 @@ class CUBIC_CRAFT_OT_preset_add(bpy.types.Operator):
 
 
 class CUBIC_CRAFT_OT_preset_remove(bpy.types.Operator):
-    """Delete the preset that the panel shows; the settings do not change."""
-
     bl_idname = "cubic_craft.preset_remove"
     bl_label = "Remove Preset"
     bl_description = "Delete the current preset, for all files; the settings do not change"

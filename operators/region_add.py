@@ -12,8 +12,6 @@ from ._shared.selection import poll_mesh, refuse
 
 
 class CUBIC_CRAFT_OT_region_add(AddsGroup, bpy.types.Operator):
-    """Give a vertex group a form of its own."""
-
     bl_idname = "cubic_craft.region_add"
     bl_label = "Add Region"
     bl_description = (
@@ -33,8 +31,6 @@ class CUBIC_CRAFT_OT_region_add(AddsGroup, bpy.types.Operator):
 
 
 class CUBIC_CRAFT_OT_region_from_selection(AddsSelection, bpy.types.Operator):
-    """Give the selected vertices a form of their own."""
-
     bl_idname = "cubic_craft.region_from_selection"
     bl_label = "Region from Selection"
     bl_description = (
@@ -54,8 +50,6 @@ class CUBIC_CRAFT_OT_region_from_selection(AddsSelection, bpy.types.Operator):
 
 
 class CUBIC_CRAFT_OT_region_remove(bpy.types.Operator):
-    """Remove the active region."""
-
     bl_idname = "cubic_craft.region_remove"
     bl_label = "Remove Region"
     bl_description = (

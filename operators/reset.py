@@ -9,8 +9,6 @@ from ._shared.selection import poll_panel_mesh
 
 
 class CUBIC_CRAFT_OT_reset(bpy.types.Operator):
-    """Reset all settings to their defaults, except those that belong to the mesh."""
-
     bl_idname = "cubic_craft.reset"
     bl_label = "Reset Settings"
     bl_description = (

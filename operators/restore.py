@@ -9,8 +9,6 @@ from ._shared.originals import OnOriginals
 
 
 class CUBIC_CRAFT_OT_restore(OnOriginals, bpy.types.Operator):
-    """Return the selected meshes to their original shape, bit for bit."""
-
     bl_idname = "cubic_craft.restore"
     bl_label = "Restore"
     bl_description = (
@@ -28,8 +26,6 @@ class CUBIC_CRAFT_OT_restore(OnOriginals, bpy.types.Operator):
 
 
 class CUBIC_CRAFT_OT_restore_first(OnOriginals, bpy.types.Operator):
-    """Return the selected meshes to the original that *From Here* has replaced."""
-
     bl_idname = "cubic_craft.restore_first"
     bl_label = "Restore First"
     bl_description = (

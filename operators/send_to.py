@@ -15,8 +15,6 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
-    """Write the selected meshes to a file for another program."""
-
     bl_idname = "cubic_craft.send_to"
     bl_label = "Send To"
     bl_description = (
@@ -116,5 +114,4 @@ class CUBIC_CRAFT_OT_send_to(bpy.types.Operator):
             with_groups=self.groups,
             scale=scale,
         )
-        sent = send(self.target, objects, path, options)
-        return report_all(self, sent.done, sent.problems)
+        return report_all(self, *send(self.target, objects, path, options))

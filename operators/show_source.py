@@ -10,8 +10,6 @@ from ._shared.unexpected_errors import reporting
 
 
 class CUBIC_CRAFT_OT_show_source(bpy.types.Operator):
-    """Show the objects that are hidden behind those made from them."""
-
     bl_idname = "cubic_craft.show_source"
     bl_label = "Show Source"
     bl_description = (

@@ -17,7 +17,7 @@ if SCRIPTS not in sys.path:  # Blender does not put a script's folder there
     sys.path.insert(0, SCRIPTS)
 
 import cubic_craft  # noqa: E402
-from cubic_craft.cubic_craft_addon.command_line.main import Program, main_of  # noqa: E402
+from cubic_craft.cubic_craft_addon.command_line.main import main_of  # noqa: E402
 
 IS_INSIDE_BLENDER = "bpy" in sys.modules
 NAME = "headless_render.py"
@@ -25,8 +25,7 @@ NAME = "headless_render.py"
 
 def main() -> int:
     """Do what the command line says, and return the exit code."""
-    program = Program(NAME, NAME, _arguments(), cubic_craft.registered)
-    return main_of(program)
+    return main_of(_arguments(), NAME, NAME, cubic_craft.registered)
 
 
 def leave(code: int) -> None:

@@ -4,9 +4,8 @@
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
 
 import bpy
 import numpy as np
@@ -21,13 +20,8 @@ from ..run import pipeline
 from ..run.up_to_date import what_matters
 from ..settings.values import IN_ANIMATION, Settings
 
-
-class FrameSettings(Protocol):
-    """The settings in the present frame, such as `SettingsOverrides`."""
-
-    def settings_for(self, obj: bpy.types.Object) -> Settings:
-        """Return those with which an object is to be cubified."""
-        ...
+FrameSettings = Callable[[bpy.types.Object], Settings]
+"""gives the settings with which an object is to be cubified in the present frame"""
 
 
 @dataclass(frozen=True)
@@ -47,10 +41,10 @@ class Animated:
         """Number of vertices of the visible mesh."""
         return len(mesh_bridge.mesh_of(self.new).vertices)
 
-    def settings(self, overrides: FrameSettings) -> Settings:
+    def settings(self, settings_for: FrameSettings) -> Settings:
         """Return the settings in this frame."""
         owner = self.source if self.source.type == "MESH" else self.new
-        return replace(overrides.settings_for(owner), **IN_ANIMATION)
+        return replace(settings_for(owner), **IN_ANIMATION)
 
 
 class AnimatedGroup:
@@ -59,8 +53,8 @@ class AnimatedGroup:
     Raises CubicCraftError: they cannot be solved.
     """
 
-    def __init__(self, objects: Sequence[Animated], overrides: FrameSettings):
-        self.objects, self._overrides = objects, overrides
+    def __init__(self, objects: Sequence[Animated], settings_for: FrameSettings):
+        self.objects, self._settings_for = objects, settings_for
         self._first = pipeline.prepare([self._in_first_pose(one) for one in objects])
         self._unposed = self._first
         self._sequence = solver.FrameSequence(self._first.setup.rest)
@@ -153,7 +147,7 @@ class AnimatedGroup:
 
         The bones are there in any case, as they can be read in that pose only.
         """
-        settings = one.settings(self._overrides)
+        settings = one.settings(self._settings_for)
         read = replace(settings, keep_pose=known is None)
         found = read_member(one.new, read, known, rigged=one.source)
         return replace(found, settings=settings, bones=known.bones if known else found.bones)

@@ -23,9 +23,8 @@ from ..read.object_frame import placements
 from ..send.targets import check_exporter
 from ..settings.values import Settings
 from .animated import Animated, AnimatedGroup, FrameSettings
-from .exchange import SUFFIXES
 from .places import BakeOptions, BakeResult, Places
-from .playback import play, shown, stretch
+from .playback import SUFFIXES, play, shown, stretch
 from .point_cache import new_point_cache
 from .recording import Recording
 from .sources import OF_ALL_FRAMES, animated_settings
@@ -53,31 +52,22 @@ class _Item:
 class Bake:
     """Objects whose frames are to be cubified, as a job of `WatchedJob`.
 
-    `sources`: the active one first.
-
-    Raises
-    ------
-    CubicCraftError
-        There are no frames, a source is not evaluated or has keyframes that cannot be used, or the
-        format or the folder cannot be used.
-
-    Attributes
-    ----------
-    baked, results : list of bpy.types.Object and BakeResult
-        What was written.
+    `sources`: the active one first. `baked`, `results`: lists of what was written. Raises
+    CubicCraftError: there are no frames, a source is not evaluated or has keyframes that cannot be
+    used, or the format or the folder cannot be used.
     """
 
     cancel_text = "Stop, and Keep the Frames"
 
     def __init__(
-        self, overrides: FrameSettings, sources: Sequence[bpy.types.Object], options: BakeOptions
+        self, settings_for: FrameSettings, sources: Sequence[bpy.types.Object], options: BakeOptions
     ):
         if not options.frames:
             raise CubicCraftError("the last frame comes before the first; change the range")
         check_exporter(SUFFIXES[options.file_format])
         self._stretch = stretch()
         self._places = Places(options)
-        self._overrides, self._sources, self._options = overrides, sources, options
+        self._settings_for, self._sources, self._options = settings_for, sources, options
         self._problems: list[str] = []
         self._made: list[Animated] = []
         self._works: list[_Work] = []
@@ -147,7 +137,7 @@ class Bake:
                 self._problems.append(str(error))
         items = []
         for one in self._made:
-            settings = one.settings(self._overrides)
+            settings = one.settings(self._settings_for)
             items.append(_Item(one, settings, placements(one.source, settings, is_posed=True)[1]))
         for group in assemblies(items):
             try:
@@ -156,7 +146,7 @@ class Bake:
                 self._problems.append(str(error))
 
     def _work(self, objects):
-        group = AnimatedGroup(objects, self._overrides)
+        group = AnimatedGroup(objects, self._settings_for)
         path = self._places.recording_of(objects[0].source)
         about = {**group.about, "start": self._options.start, "stretch": self._stretch}
         recording = Recording(path, about, group.vertices)

@@ -12,7 +12,6 @@ from .properties import bake_settings, source_of
 from .sources import animated_settings
 
 SECTION = "CUBIC_CRAFT_PT_animation"
-_BAKE = {"text": "Cubify Animation", "icon": "RENDER_ANIMATION"}
 
 
 def draw_animated(context: bpy.types.Context, layout: Any, obj: bpy.types.Object) -> None:
@@ -24,9 +23,7 @@ def draw_animated(context: bpy.types.Context, layout: Any, obj: bpy.types.Object
     are, them = ("is", "it") if len(names) == 1 else ("are", "them")
     text = f"{', '.join(names)} {are} animated: Cubify Animation bakes {them}"
     draw_wrapped(context, column.column(align=True), text, "INFO")
-    row = column.row()
-    row.enabled = live.current() is None
-    buttons.operator(row, "cubic_craft.bake_animation", **_BAKE)
+    _draw_button(column)
 
 
 def draw(layout, obj):
@@ -43,6 +40,10 @@ def draw(layout, obj):
         column.prop(properties, "frame_end")
     layout.prop(properties, "format")
     layout.prop(properties, "folder")
-    row = layout.row()
+    _draw_button(layout)
+
+
+def _draw_button(layout):
+    row, look = layout.row(), {"text": "Cubify Animation", "icon": "RENDER_ANIMATION"}
     row.enabled = live.current() is None
-    buttons.operator(row, "cubic_craft.bake_animation", **_BAKE)
+    buttons.operator(row, "cubic_craft.bake_animation", **look)

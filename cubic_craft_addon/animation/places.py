@@ -10,8 +10,9 @@ from pathlib import Path
 import bpy
 
 from ...solver import CubicCraftError
-from ..environment.file_names import file_stems, folded
-from .exchange import SUFFIXES
+from ...solver.console.sources import folded
+from ..environment.file_names import file_stems
+from .playback import SUFFIXES
 from .properties import SOURCE
 
 _UNFINISHED = ".unfinished"  # suffix of the folders of recordings

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Baked objects, which play back their frames."""
+"""Baked objects, which play back their frames, and files of these for other programs."""
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +13,13 @@ from ...solver import CubicCraftError
 from ...solver.console.output import replacing
 from .. import hidden_source, mesh_bridge
 from ..environment.curves import curves_of
-from .exchange import export_frames
+from ..environment.scene_state import frame_kept, only_selected
+from ..send.targets import Options, exporter, settings, target_of
 from .point_cache import read_point_cache
 from .properties import SOURCE
 
+SUFFIXES = {"CACHE": ".pc2", "SHAPE_KEYS": ".pc2", "ALEMBIC": ".abc", "USD": ".usdc"}
+"""of the files of each format; shape keys are read from a point cache"""
 MODIFIER = "Cubic Animation"
 _MOST_STRETCH = 100  # of a Mesh Cache modifier
 
@@ -121,6 +124,30 @@ def play(baked: bpy.types.Object, cache: Path, path: Path, file_format: str, sta
     return path.name
 
 
+def export_frames(objects: Sequence[bpy.types.Object], path: Path, start: int, end: int) -> None:
+    """Write frames of objects, without others, to an Alembic or USD file.
+
+    The selection, the frame and the range of the scene come back.
+
+    Raises CubicCraftError: nothing was written.
+    """
+    scene = bpy.context.scene
+    before = scene.frame_start, scene.frame_end
+    try:
+        with frame_kept(), only_selected(objects):
+            scene.frame_start, scene.frame_end = start, end
+            target = target_of(path.suffix)
+            options = Options(frames=(start, end), suffix=path.suffix)
+            chosen = settings(target, list(objects), options, is_modified=True)
+            exporter(target)(filepath=str(path), **chosen)
+    except RuntimeError as error:
+        raise CubicCraftError(f'"{path.name}" could not be written: {error}') from error
+    finally:
+        scene.frame_start, scene.frame_end = before
+    if not path.exists():
+        raise CubicCraftError(f'"{path.name}" could not be written')
+
+
 def _baked_before(source):
     """Return the object that was baked from a source before and is still in the scene."""
     scene = bpy.context.scene
@@ -173,11 +200,7 @@ def _play_keys(baked, frames, start):
     for frame, key in ((start, blocks[0]), (start + len(frames) - 1, blocks[-1])):
         keys.eval_time = key.frame
         keys.keyframe_insert("eval_time", frame=frame / stretch())
-    _make_linear(keys.animation_data.action)
-
-
-def _make_linear(action):
-    for curve in curves_of(action):
+    for curve in curves_of(keys.animation_data.action):
         for point in curve.keyframe_points:
             point.interpolation = "LINEAR"
 

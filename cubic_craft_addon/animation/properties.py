@@ -8,6 +8,7 @@ import bpy
 from bpy.props import PointerProperty
 
 from ...solver.setting import setting
+from ..environment.declared import added
 from ..environment.scene_settings import SceneSettings, properties_of
 
 SOURCE = "cubic_craft_source"
@@ -64,13 +65,5 @@ def source_of(obj: bpy.types.Object) -> bpy.types.Object:
     return getattr(obj, SOURCE) or obj
 
 
-def register():
-    """Add the properties."""
-    bake_settings.register()
-    setattr(bpy.types.Object, SOURCE, PointerProperty(type=bpy.types.Object, options={"HIDDEN"}))
-
-
-def unregister():
-    """Remove them."""
-    delattr(bpy.types.Object, SOURCE)
-    bake_settings.unregister()
+_source = PointerProperty(type=bpy.types.Object, options={"HIDDEN"})
+register, unregister = added(bpy.types.Object, {SOURCE: _source})

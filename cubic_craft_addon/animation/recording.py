@@ -13,7 +13,7 @@ import zipfile
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -27,39 +27,15 @@ _PIECE = 32_000_000  # bytes of float64 that are read at once
 _FRAMES, _ABOUT, _STATE = "frames.f32", "about.json", "state.npz"
 
 
-class _Saved(NamedTuple):
-    """The end of a recording."""
-
-    count: int
-    checksum: int
-    """of all frames"""
-    moment: str
-    state: solver.SequenceState
-
-
 class Recording:
     """Frames of vertices in a folder.
 
     No other process has the folder until it is released.
 
     `folder`: it is made if it is not there. `about`: what the frames depend on, for JSON; frames of
-    anything else are forgotten.
-
-    Attributes
-    ----------
-    folder : Path
-        Its own, which others keep away from until it is released.
-    count : int
-        Number of frames.
-    state : SequenceState or None
-        The end of the last frame, from which the next one is solved.
-    moment : str
-        What the last frame depended on.
-
-    Raises
-    ------
-    BusyError
-        Another process has the folder.
+    anything else are forgotten. `count`: of the frames. `state`: the end of the last frame, from
+    which the next one is solved. `moment`: what the last frame depended on. Raises BusyError:
+    another process has the folder.
     """
 
     def __init__(self, folder: Path, about: dict[str, Any], vertices: int):
@@ -86,25 +62,26 @@ class Recording:
         else:
             self.count, self._checksum, self.moment, self.state = saved
 
-    def _saved_in(self, folder) -> _Saved | None:
-        """Return the end of a recording of the same, if all its frames are there."""
+    def _saved_in(self, folder) -> tuple[int, int, str, solver.SequenceState] | None:
+        """Return the end of a recording of the same, if all its frames are there.
+
+        That is their number, the checksum of all, the moment and the state.
+        """
         try:
             if json.loads((folder / _ABOUT).read_text(encoding="utf-8")) != self._about:
                 return None
             with np.load(folder / _STATE) as values:
-                saved = _Saved(
-                    int(values["count"]),
-                    int(values["checksum"]),
-                    str(values["moment"]),
-                    solver.SequenceState(*(values[name] for name in solver.SequenceState._fields)),
+                state = solver.SequenceState(
+                    *(values[name] for name in solver.SequenceState._fields)
                 )
-            checksum = 0
+                count, noted = int(values["count"]), int(values["checksum"])
+                moment, checksum = str(values["moment"]), 0
             with (folder / _FRAMES).open("rb") as file:
-                for _ in range(saved.count):
+                for _ in range(count):
                     checksum = zlib.crc32(file.read(self._frame_bytes), checksum)
         except (OSError, EOFError, ValueError, KeyError, zipfile.BadZipFile):
             return None
-        return saved if checksum == saved.checksum else None
+        return (count, checksum, moment, state) if checksum == noted else None
 
     @property
     def _frame_bytes(self):

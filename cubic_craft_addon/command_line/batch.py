@@ -3,20 +3,20 @@
 
 import os
 import time
-import unicodedata
 from argparse import Namespace
 from collections import Counter
 from collections.abc import Callable
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...solver.console import sources
 from ...solver.console.many import KEPT, in_words, one_by_one
 from ...solver.console.output import InputError, check_outputs
+from ...solver.console.sources import folded
 from .options.arguments import options_for
 from .options.formats import READABLE
 from .process.output_files import written
-from .process.progress import ProgressBar
+from .process.progress import say
 from .process.quiet import one_line
 
 
@@ -46,14 +46,14 @@ def run_batch(
     `run`: does what the options of one file say and returns its report; it is given when that
     begins. `complain`: prints a line about what is wrong.
     """
-    bar, count = ProgressBar(), len(jobs)
+    count = len(jobs)
 
     def work(numbered: tuple[int, Job]) -> dict[str, Any]:
         number, job = numbered
         outputs = [str(path) for path in job.outputs]
         is_kept = bool(outputs) and job.is_done and not options.force
         end = ": kept, it was done before" if is_kept else ""
-        bar.say(f"{number} of {count}, {one_line(job.path.name)}{end}")
+        say(f"{number} of {count}, {one_line(job.path.name)}{end}")
         if is_kept:
             return {"status": KEPT, "outputs": outputs}
         return {"outputs": outputs, "report": run(job.options, time.perf_counter())}
@@ -80,7 +80,12 @@ def jobs_of(options: Namespace) -> list[Job]:
     for name, path in _named(found).items():
         own = options_for(options, name, path)
         jobs.append(Job(path, own, written(own)))
-    _check_folder(options)
+    folders = {path.resolve() for path in options.inputs if path.is_dir()}
+    if options.save_mesh and options.output_folder.resolve() in folders:
+        raise InputError(
+            f"--output-folder {options.output_folder}: is the folder of the inputs as well, where "
+            "the meshes would be inputs the next time; choose another, it may lie in this one"
+        )
     inputs = [*(job.path for job in jobs), options.handles_file, options.form_object]
     for folder in {path.parent for job in jobs for path in job.outputs} | {options.output_folder}:
         sources.make_folder(f"--output-folder {options.output_folder}", folder)
@@ -88,7 +93,7 @@ def jobs_of(options: Namespace) -> list[Job]:
         if job.outputs:
             check_outputs("--output-folder", job.outputs, filter(None, inputs))
     if kinds:
-        ProgressBar().say(f"left out, of kinds that are not read: {one_line(in_words(kinds))}")
+        say(f"left out, of kinds that are not read: {one_line(in_words(kinds))}")
     return jobs
 
 
@@ -100,30 +105,15 @@ def _named(found: list[tuple[Path, Path]]) -> dict[str, Path]:
     """
     # Links stay what they are called.
     places = {os.path.abspath(path): (path, path.relative_to(folder)) for path, folder in found}  # noqa: PTH100
-    count = Counter(_folded(place.with_suffix("")) for _, place in places.values())
+    count = Counter(folded(place.with_suffix("").as_posix()) for _, place in places.values())
     named: dict[str, Path] = {}
     taken: dict[str, Path] = {}
     for path, place in places.values():
-        name = place.with_suffix("")
-        if count[_folded(name)] > 1:
-            name = place.with_name(f"{place.stem}_{place.suffix[1:]}")
-        other = taken.setdefault(_folded(name), path)
+        name = place.with_suffix("").as_posix()
+        if count[folded(name)] > 1:
+            name = place.with_name(f"{place.stem}_{place.suffix[1:]}").as_posix()
+        other = taken.setdefault(folded(name), path)
         if other != path:
             raise InputError(f"{path}: its results would have the names of {other}; rename it")
-        named[name.as_posix()] = path
+        named[name] = path
     return named
-
-
-def _folded(name: PurePath) -> str:
-    """Return what is the same for names that are the same file somewhere."""
-    return unicodedata.normalize("NFC", name.as_posix()).casefold()
-
-
-def _check_folder(options: Namespace) -> None:
-    """Refuse results that are taken for inputs the next time."""
-    folders = {path.resolve() for path in options.inputs if path.is_dir()}
-    if options.save_mesh and options.output_folder.resolve() in folders:
-        raise InputError(
-            f"--output-folder {options.output_folder}: is the folder of the inputs as well, where "
-            "the meshes would be inputs the next time; choose another, it may lie in this one"
-        )

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command that Blender knows while the extension is enabled: ``blender -c cubic_craft``."""
 
-import contextlib
 from typing import Any
 
 import bpy
@@ -22,10 +21,9 @@ def unregister():
 
 
 def _execute(arguments: list[str]) -> int:
-    from .main import Program, main_of  # late: hardly a start of Blender needs it
+    from .main import main_of  # late: hardly a start of Blender needs it
 
     try:
-        program = Program(NAME, f"blender -c {NAME}", arguments, contextlib.nullcontext)
-        return main_of(program)
+        return main_of(arguments, NAME, f"blender -c {NAME}")
     except SystemExit as end:  # after --help; Blender would take it for an error
         return int(end.code or 0)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The run of the command line, from its arguments to its exit code."""
 
+import contextlib
 import sys
 import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from typing import NamedTuple
 
 from ...solver.console.interruption import end_on_signals
 from ...solver.console.output import InputError
@@ -14,31 +14,28 @@ from .options.arguments import parse
 from .process.quiet import mute_stdout, one_line, terminal
 
 
-class Program(NamedTuple):
-    """What somebody has started."""
+def main_of(
+    arguments: list[str],
+    program: str,
+    start: str,
+    registered: Callable[[], AbstractContextManager[None]] = contextlib.nullcontext,
+) -> int:
+    """Do what the arguments of a program say, and return the exit code.
 
-    name: str
-    """in its messages"""
-    start: str
-    """how it is started, for --help"""
-    arguments: list[str]
-    registered: Callable[[], AbstractContextManager[None]]
-    """has the extension in Blender for a block; until then Blender need not have been started"""
-
-
-def main_of(program: Program) -> int:
-    """Do what the arguments of a program say, and return the exit code."""
-    end_on_signals(program.name, terminal)
+    `program`: its name in messages. `start`: how it is started, for --help. `registered`: has the
+    extension in Blender for a block; until then Blender need not have been started.
+    """
+    end_on_signals(program, terminal)
     begin = time.perf_counter()
 
     def complain(line: str) -> None:
-        print(f"{program.name}: {one_line(line)}", file=sys.stderr, flush=True)
+        print(f"{program}: {one_line(line)}", file=sys.stderr, flush=True)
 
     try:
-        options = parse(program.arguments, program.start)
+        options = parse(arguments, start)
         mute_stdout(options.verbose)
         jobs = jobs_of(options) if options.output_folder else []
-        with program.registered():
+        with registered():
             # Late, because it takes Blender a second to start.
             from .pipeline import run
 

@@ -15,7 +15,7 @@ from .picture.gallery import build_gallery
 from .picture.render import render
 from .picture.studio import furnish
 from .process.output_files import meshes, numbered, per_cubeness
-from .process.progress import ProgressBar
+from .process.progress import say
 from .reading.form_mesh import make_form, read_form
 from .reading.load_meshes import Loaded, empty_blender, load
 from .solving.bake_frames import bake_frames
@@ -34,17 +34,17 @@ def run(options: Namespace, begin: float) -> dict[str, Any]:
     if options.save_mesh:
         with refusals_of(options.save_mesh):
             check_exporter(options.save_mesh.suffix)
-    bar = ProgressBar()
     seconds: dict[str, float] = {}
     loaded = _load(options, seconds)
     for name in loaded.covered:
-        bar.say(f'"{name}": what is seen is taken, as its modifiers show a shape of their own')
-    about = (_bake if options.bake else _sculpt)(loaded, options, bar, seconds)
+        say(f'"{name}": what is seen is taken, as its modifiers show a shape of their own')
+    with refusals_of(options.input or "monkey"):
+        about = _made(loaded, options, seconds)
     seconds["total"] = time.perf_counter() - begin
     report = report_of(about, options, seconds)
     if options.report:
         write_json(options.report, report)
-        bar.say(f"wrote {options.report}")
+        say(f"wrote {options.report}")
     return report
 
 
@@ -61,35 +61,28 @@ def _load(options: Namespace, seconds: dict[str, float]) -> Loaded:
     return loaded
 
 
-def _sculpt(
-    loaded: Loaded, options: Namespace, bar: ProgressBar, seconds: dict[str, float]
-) -> dict[str, Any]:
-    """Write meshes and a picture, and return what there is to report."""
-    with refusals_of(options.input or "monkey"):
-        sculptures = cubify_all(loaded, options, bar)
+def _made(loaded: Loaded, options: Namespace, seconds: dict[str, float]) -> dict[str, Any]:
+    """Write an animation, or meshes and a picture; return what there is to report."""
+    if options.bake:
+        with _timed("bake", seconds):
+            return bake_frames(loaded, options)
+    sculptures = cubify_all(loaded, options)
     for notice in new_engine_warnings():
-        bar.say(notice)
+        say(notice)
     with _timed("write", seconds):
         if options.save_mesh:
             paths = per_cubeness(options.save_mesh, options.cubeness)
             for problem in save_meshes(paths, sculptures, loaded, options.low_poly):
-                bar.say(problem)
+                say(problem)
             done = meshes(options.save_mesh, options.cubeness, options.low_poly)
-            bar.say(f"wrote {', '.join(map(str, done))}")
+            say(f"wrote {', '.join(map(str, done))}")
     with _timed("render", seconds):
         if options.output:
             gallery = build_gallery(sculptures, options)
             furnish(gallery, options.resolution[0] / options.resolution[1])
             for path in render(gallery, numbered(options.output, options.turntable), options):
-                bar.say(f"wrote {path}")
+                say(f"wrote {path}")
     return about_sculptures(sculptures, options.cubeness)
-
-
-def _bake(
-    loaded: Loaded, options: Namespace, bar: ProgressBar, seconds: dict[str, float]
-) -> dict[str, Any]:
-    with refusals_of(options.input or "monkey"), _timed("bake", seconds):
-        return bake_frames(loaded, options, bar)
 
 
 @contextlib.contextmanager

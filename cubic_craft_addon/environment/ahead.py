@@ -52,10 +52,6 @@ def _next_step():
     return PAUSE
 
 
-def register():
-    """Be asked by the panel."""
-
-
 def unregister():
     """Load nothing more."""
     global _steps

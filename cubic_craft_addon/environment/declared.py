@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The property of Blender for what is declared of a setting."""
+"""The property of Blender for what is declared of a setting, and properties of its own types."""
 
+from collections.abc import Callable, Mapping
 from typing import Any
 
+import bpy
 from bpy import props
 
 from ...solver.setting import Setting
@@ -38,3 +40,26 @@ def declared(setting: Setting, **others: Any) -> Any:
     if kind is float and not is_vector:
         how["step"], how["precision"] = 1, setting.digits
     return _KINDS[kind, is_vector](**{**how, **others})
+
+
+def added(
+    owner: type, properties: Mapping[str, Any], group: type | None = None
+) -> tuple[Callable[[], None], Callable[[], None]]:
+    """Return `register` and `unregister` of properties, by name, of a type of Blender.
+
+    `group`: the property group that one of them points to, which is registered with them.
+    """
+
+    def register():
+        if group is not None:
+            bpy.utils.register_class(group)
+        for name, declaration in properties.items():
+            setattr(owner, name, declaration)
+
+    def unregister():
+        for name in properties:
+            delattr(owner, name)
+        if group is not None:
+            bpy.utils.unregister_class(group)
+
+    return register, unregister

@@ -7,11 +7,12 @@ gets a digest of what it is called in Blender.
 """
 
 import hashlib
-import unicodedata
 from collections import Counter
 from collections.abc import Iterable
 
 import bpy
+
+from ...solver.console.sources import folded
 
 _LONGEST = 100  # bytes of a name; file systems allow 255 with all that comes before and behind
 
@@ -36,11 +37,6 @@ def file_stem(name: str) -> str:
     clean = bpy.path.clean_name(name)
     short = clean.encode()[:_LONGEST].decode(errors="ignore")
     return clean if short == clean else f"{short}.{_digest(name)}"
-
-
-def folded(name: str) -> str:
-    """Return what is the same for all names that are one file on some system."""
-    return unicodedata.normalize("NFC", name).casefold()
 
 
 def _digest(name: str) -> str:

@@ -21,8 +21,3 @@ def remove(handlers: Handlers) -> None:
         installed = getattr(bpy.app.handlers, name)
         if handler in installed:
             installed.remove(handler)
-
-
-def are_installed(handlers: Handlers) -> bool:
-    """Return whether Blender calls all of them."""
-    return all(handler in getattr(bpy.app.handlers, name) for name, handler in handlers)

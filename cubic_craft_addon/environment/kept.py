@@ -54,11 +54,6 @@ class Kept(Generic[T]):
         _all.add(self)
 
     @property
-    def is_empty(self) -> bool:
-        """Whether nothing is known that could be forgotten."""
-        return not self._known
-
-    @property
     def uids(self) -> Iterable[int]:
         """Of all that is known."""
         return list(self._known)
@@ -99,7 +94,7 @@ _all: WeakSet[Kept] = WeakSet()
 
 @persistent
 def _on_update(_scene, depsgraph):
-    for kept in [each for each in _all if not each.is_empty]:
+    for kept in [each for each in _all if each.uids]:
         for update in depsgraph.updates:
             kept.has_changed(kept.changed(update))
 
@@ -228,7 +223,8 @@ def _is_watched(obj, depsgraph):
 
     Others may have removed our handlers, too.
     """
-    if not handlers.are_installed(_HANDLERS) or obj.data is None:
+    are_called = all(handler in getattr(bpy.app.handlers, name) for name, handler in _HANDLERS)
+    if not are_called or obj.data is None:
         return False
     return obj.evaluated_get(depsgraph).is_evaluated and obj.visible_get()
 

@@ -7,7 +7,7 @@ import bpy
 from bpy.props import PointerProperty
 
 from ...solver.setting import declared as settings_of
-from .declared import declared
+from .declared import added, declared
 
 
 def properties_of(declaration: type, **others: dict[str, Any]) -> dict[str, Any]:
@@ -29,7 +29,9 @@ class SceneSettings:
     """
 
     def __init__(self, name: str, declaration: type, group: type[bpy.types.PropertyGroup]):
-        self._name, self._declaration, self._group = name, declaration, group
+        self._name, self._declaration = name, declaration
+        pointer = PointerProperty(type=group)
+        self.register, self.unregister = added(bpy.types.Scene, {name: pointer}, group)
 
     def of(self, scene: bpy.types.Scene) -> Any:
         """Return the settings of a scene."""
@@ -40,13 +42,3 @@ class SceneSettings:
         is_given, shared = operator.properties.is_property_set, self.of(scene)
         names = settings_of(self._declaration)
         return {name: getattr(operator if is_given(name) else shared, name) for name in names}
-
-    def register(self) -> None:
-        """Add the property."""
-        bpy.utils.register_class(self._group)
-        setattr(bpy.types.Scene, self._name, PointerProperty(type=self._group))
-
-    def unregister(self) -> None:
-        """Remove it."""
-        delattr(bpy.types.Scene, self._name)
-        bpy.utils.unregister_class(self._group)

@@ -36,8 +36,3 @@ def read_directions(text: str) -> np.ndarray:
     if not (np.isfinite(sizes).all() and (sizes > 0.0).all()):
         raise CubicCraftError("the directions of a form must be finite, and not zero")
     return rows / sizes
-
-
-def count_directions(text: str) -> int:
-    """Return how many directions a text holds."""
-    return text.count(",") + 1 if text.strip() else 0

@@ -7,7 +7,6 @@ import bpy
 
 from .. import live
 from ..settings.overrides import POINTERS
-from .direction_text import count_directions
 from .settings import form_settings
 
 _SIZE, _SIZE_IN_LIST = 3.0, 5.0  # of the pictures, in buttons
@@ -28,21 +27,18 @@ def draw(layout: Any, properties: Any, is_shared: bool = True) -> None:
         if name == "form_directions":
             _draw_directions(column, properties, is_shared)
             continue
-        own = {} if name in _WITH_OWN_LABEL else {"text": ""}
-        _draw_setting(column, properties, name, own, is_shared)
-
-
-def _draw_setting(layout, properties, name, label, is_shared=True):
-    if is_shared and name in POINTERS and live.current():
-        layout.prop_search(properties, name, bpy.data, "objects", **label)
-    else:
-        layout.prop(properties, name, **label)
+        label = {} if name in _WITH_OWN_LABEL else {"text": ""}
+        if is_shared and name in POINTERS and live.current():
+            column.prop_search(properties, name, bpy.data, "objects", **label)
+        else:
+            column.prop(properties, name, **label)
 
 
 def draw_count(layout: Any, properties: Any) -> None:
     """Draw how many directions were picked, instead of their numbers."""
-    count = count_directions(properties.form_directions)
-    layout.label(text=f"{count} directions" if count else "No faces picked")
+    text = properties.form_directions
+    count = text.count(",") + 1
+    layout.label(text=f"{count} directions" if text.strip() else "No faces picked")
 
 
 def _draw_directions(layout, properties, is_shared):

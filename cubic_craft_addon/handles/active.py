@@ -58,9 +58,7 @@ def add_empty(context: bpy.types.Context, obj: Any, handle: Any) -> bpy.types.Ob
     empty.show_in_front = True  # otherwise the mesh would hide it
     empty.parent = obj  # without an inverse: its own location is in the object's coordinates
     empty.location = (low + high) / 2
-    collections = [c for c in obj.users_collection if c.is_editable]
-    for collection in collections or [context.scene.collection]:
-        collection.objects.link(empty)
+    mesh_bridge.link_beside(obj, empty)
     return empty
 
 

@@ -57,11 +57,6 @@ def check_pose(obj: bpy.types.Object, handle: CubicCraftHandle, pose: Pose) -> N
     )
 
 
-def has_pose(handle: CubicCraftHandle) -> bool:
-    """Return whether the handle has its own pose."""
-    return own_pose(handle) != IDENTITY
-
-
 def set_own_pose(handle: CubicCraftHandle, pose: Pose) -> None:
     """Store a pose with the handle."""
     handle.pose = Matrix(np.reshape(pose, (4, 4)).tolist())
@@ -79,10 +74,3 @@ def keep_poses(obj: bpy.types.Object, poses: Mapping[int, Pose]) -> None:
     for handle in object_properties(obj).handles:
         if handle.uid in poses:
             set_own_pose(handle, poses[handle.uid])
-
-
-def pose_since_baked(handle: CubicCraftHandle) -> Matrix:
-    """Return the pose relative to that when the mesh was written."""
-    if handle.pose == handle.baked_pose:
-        return Matrix()
-    return handle.pose @ handle.baked_pose.inverted_safe()

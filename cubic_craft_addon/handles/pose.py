@@ -26,7 +26,7 @@ from .. import mesh_bridge
 from ..mesh_bridge import vertex_group
 from ..object_properties import has_properties, object_properties, users_of
 from .handle import Handle
-from .own_pose import Pose, check_pose, has_pose, is_invertible, own_pose, pose_since_baked
+from .own_pose import Pose, check_pose, is_invertible, own_pose
 
 if TYPE_CHECKING:
     from .properties import CubicCraftHandle
@@ -78,20 +78,12 @@ def bind(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
         return  # refused when it is used, so that the panel can show it
     bpy.context.view_layer.update()
     try:
-        matrix = relation(obj, handle)
+        matrix, _ = _relation(obj, handle)
         _check_invertible(matrix, obj, target)
     except CubicCraftError:
         handle.target = None
     else:
         handle.rest = handle.baked = Matrix(matrix.tolist())
-
-
-def relation(obj: bpy.types.Object, handle: CubicCraftHandle) -> np.ndarray:
-    """Return the matrix (4,4) of the handle's target in the coordinates of the object.
-
-    Raises CubicCraftError: the object has an invalid transform.
-    """
-    return _relation(obj, handle)[0]
 
 
 def reset(obj: bpy.types.Object, handle: CubicCraftHandle) -> None:
@@ -153,7 +145,8 @@ def _motion(obj, handle):
         _check_invertible(matrix, obj, target)
     matrix = now @ np.linalg.inv(rest)
     size = max(noise, np.abs(now[:3, 3]).max(), np.abs(rest[:3, 3]).max())
-    if _is_identity(matrix, size):
+    off = np.abs(matrix - np.eye(4))
+    if off[:3, :3].max() <= _STILL and off[:3, 3].max() <= _STILL * size:
         return IDENTITY
     if noise > 0.0:
         _round(matrix[:3, :3], np.abs(matrix[:3, :3]).max())
@@ -162,7 +155,10 @@ def _motion(obj, handle):
 
 
 def _relation(obj, handle):
-    """Return the relation (4,4), and the size whose last bits may be wrong in it, 0 if none."""
+    """Return the relation (4,4), and the size whose last bits may be wrong in it, 0 if none.
+
+    Raises CubicCraftError: the object has an invalid transform.
+    """
     target = handle.target
     reference = _reference(obj, handle)
     if _is_plain_child(target, reference):
@@ -226,11 +222,6 @@ def _check_invertible(matrix, obj, target):
     )
 
 
-def _is_identity(matrix, size):
-    off = np.abs(matrix - np.eye(4))
-    return off[:3, :3].max() <= _STILL and off[:3, 3].max() <= _STILL * size
-
-
 def _round(values, size):
     """Drop the last digits of the values, in place."""
     unit = 10.0 ** (math.floor(math.log10(size)) - _DIGITS)
@@ -253,7 +244,7 @@ def remember_pose(obj: bpy.types.Object, *, is_posed: bool) -> None:
             handle.is_baked = any(_is_as(handle, other) for other in written)
             if handle.is_baked:
                 is_led = live_target(handle) is not None
-                now = Matrix(relation(user, handle).tolist()) if is_led else handle.rest
+                now = Matrix(_relation(user, handle)[0].tolist()) if is_led else handle.rest
                 handle.baked, handle.baked_pose = now, handle.pose
 
 
@@ -263,7 +254,9 @@ def rest_in_pose(mesh: bpy.types.Mesh) -> None:
         for handle in object_properties(user).handles:
             if handle.is_baked:
                 handle.rest = handle.baked
-                handle.pose = pose_since_baked(handle)
+                is_same = handle.pose == handle.baked_pose  # bit for bit
+                since = Matrix() if is_same else handle.pose @ handle.baked_pose.inverted_safe()
+                handle.pose = since
                 handle.is_baked = False
 
 
@@ -283,7 +276,8 @@ def _is_as(handle, other):
     target = live_target(handle)
     if target is not None or live_target(other) is not None:
         return target == live_target(other)
-    return has_pose(handle) and handle.group == other.group and handle.pose == other.pose
+    is_posed = own_pose(handle) != IDENTITY
+    return is_posed and handle.group == other.group and handle.pose == other.pose
 
 
 def _users(mesh):

@@ -9,10 +9,6 @@ from .job import Job, Step
 from .watched import FIRST_SLICE, AnyJob, WatchedJob, current
 
 
-def register():
-    """There is nothing to register before the first click."""
-
-
 def unregister():
     """End a running job."""
     running = current()

@@ -7,8 +7,9 @@ any two steps without changing anything.
 
 from __future__ import annotations  # the solver is loaded when it is needed, not for its names
 
+import contextlib
 import logging
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass
 
 import bpy
@@ -77,8 +78,7 @@ class Job:
         with settings_untouched(_meshes(meshes)):
             rebase_edited_handles(meshes, self._overrides.start_of)
             self._tasks, problems = plan(self._overrides, objects)
-        self._problems += problems + [_lost(task) for task in self._tasks if _is_lost(task)]
-        self._problems += [_posed_anew(task) for task in self._tasks if _is_torn(task)]
+        self._problems += problems + [text for task in self._tasks for text in _warnings(task)]
         sources = {new.session_uid: source for new, source in self._made}
         for task in self._tasks:
             task.source = sources.get(task.uid)
@@ -207,29 +207,19 @@ def _unseen(tasks: list[Task], looks: list[mesh_bridge.Look]) -> list[str]:
     return [text for text in found if text]
 
 
-def _is_lost(task: Task) -> bool:
-    try:
-        return mesh_bridge.is_lost(task.mesh)
-    except CubicCraftError:  # reading the member will say what is wrong
-        return False
-
-
-def _lost(task: Task) -> str:
-    return (
-        f'"{task.obj.name}" starts from its current shape: it was edited so that its original can'
-        " no longer be determined"
-    )
-
-
-def _is_torn(task: Task) -> bool:
-    return task.settings.start != "HERE" and is_posed_anew(task.obj)
-
-
-def _posed_anew(task: Task) -> str:
-    return (
-        f'"{task.obj.name}" was posed anew since the last run, but its original is in the former'
-        " pose: if the result is torn, undo and choose From Here"
-    )
+def _warnings(task: Task) -> Iterator[str]:
+    name = task.obj.name
+    with contextlib.suppress(CubicCraftError):  # reading the member will say what is wrong
+        if mesh_bridge.is_lost(task.mesh):
+            yield (
+                f'"{name}" starts from its current shape: it was edited so that its original can no'
+                " longer be determined"
+            )
+    if task.settings.start != "HERE" and is_posed_anew(task.obj):
+        yield (
+            f'"{name}" was posed anew since the last run, but its original is in the former pose:'
+            " if the result is torn, undo and choose From Here"
+        )
 
 
 def _meshes(objects: list[bpy.types.Object]) -> list[bpy.types.Mesh]:

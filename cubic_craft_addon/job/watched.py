@@ -16,8 +16,7 @@ from bpy.app.handlers import persistent
 
 from ..environment import handlers
 from ..run.failures import UNEXPECTED
-from ..screen import status_text
-from ..screen.redraw import find_button_under_mouse, redraw_panels
+from ..screen.redraw import draw_status, find_button_under_mouse, redraw_panels
 from .job import Step
 
 FIRST_SLICE = 0.7
@@ -67,14 +66,8 @@ def current() -> WatchedJob | None:
 class WatchedJob:
     """A job in time slices.
 
-    Attributes
-    ----------
-    step : Step
-        How far it has come.
-    is_solved : bool
-        Whether only writing is left to do.
-    reason : str or None
-        Why it was cancelled, empty if the artist cancelled it; None if it was not cancelled.
+    `step`: how far it has come. `is_solved`: whether only writing is left to do. `reason`: why it
+    was cancelled, empty if the artist cancelled it; None if it was not cancelled.
     """
 
     def __init__(self, job: AnyJob):
@@ -151,12 +144,12 @@ class WatchedJob:
         handlers.remove(_HANDLERS)
         if self._timer is not None:
             bpy.context.window_manager.event_timer_remove(self._timer)
-        status_text.hide()
+        draw_status(None)
         redraw_panels()
 
     def _redraw(self) -> None:
         self._next_redraw = time.perf_counter() + _REDRAW_STEP
-        status_text.show(_draw_status)
+        draw_status(_draw_status)
         redraw_panels()
 
 

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The artist goes on with something else while Live runs: another mesh, or another mode."""
 
-import contextlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any
 
 import bpy
@@ -73,26 +72,9 @@ def back_to_mode(mode: Any, *, has_written: bool) -> None:
         bpy.ops.ed.undo_push(message="Mode")
 
 
-def push_undo_soon() -> None:
-    """Push an undo step once Blender is done with what it does now, unless it quits."""
-    bpy.app.timers.register(_push_undo, first_interval=0.0)
-
-
-def _push_undo():
+def push_undo() -> None:
+    """Push an undo step, unless Blender quits."""
     windows = bpy.context.window_manager.windows
     if windows:
         with bpy.context.temp_override(window=windows[0]):
             bpy.ops.ed.undo_push(message="Live")
-
-
-@contextlib.contextmanager
-def waiting(window: bpy.types.Window | None) -> Iterator[None]:
-    """Show that Blender computes, if there is a window."""
-    if window is None:
-        yield
-        return
-    window.cursor_modal_set("WAIT")
-    try:
-        yield
-    finally:
-        window.cursor_modal_restore()

@@ -40,14 +40,9 @@ class _Solved(NamedTuple):
 class FollowedMesh(LiveMesh):
     """The mesh of one task of `tasks.plan` whose result is a new object.
 
-    Attributes
-    ----------
-    is_moved : bool
-        Whether its run has not read the present shape.
-    is_like : bool
-        Whether only positions have changed since that run.
-    original : (n,3) float32 array or None
-        The present shape, as far as it was looked at.
+    `is_moved`: whether its run has not read the present shape. `is_like`: whether only positions
+    have changed since that run. `original`: (n,3) float32, the present shape, as far as it was
+    looked at.
     """
 
     def __init__(self, task: Task):

@@ -140,12 +140,8 @@ def _seen_at(view, points):
 class Follower:
     """A follower of one original; it keeps no reference to Blender's data, which undo frees.
 
-    `is_as_seen`: whether it has the visible mesh, with modifiers.
-
-    Attributes
-    ----------
-    uid, mesh_uid : int
-        ``session_uid`` of it and of its mesh, 0 for none.
+    `is_as_seen`: whether it has the visible mesh, with modifiers. `uid`, `mesh_uid`:
+    ``session_uid`` of it and of its mesh, 0 for none.
     """
 
     def __init__(self, *, is_as_seen: bool):
@@ -165,16 +161,14 @@ class Follower:
         """Make the object beside the original."""
         if self._is_as_seen:
             new = mesh_bridge.make_seen(source)
-            mesh = mesh_bridge.mesh_of(new)
         else:
             mesh_bridge.flush(source)
             new = mesh_bridge.copied(source)
-            mesh = mesh_bridge.mesh_of(new)
-            mesh.name = f"{mesh_bridge.mesh_of(source).name} Cubic"
+            mesh_bridge.mesh_of(new).name = f"{mesh_bridge.mesh_of(source).name} Cubic"
             new.name = f"{source.name} Cubic"
         new[_MARK] = str(new.session_uid)
         mesh_bridge.link_beside(source, new)
-        self.uid, self.mesh_uid = new.session_uid, mesh.session_uid
+        self.uid, self.mesh_uid = new.session_uid, mesh_bridge.mesh_of(new).session_uid
         self._name, self._dress = new.name, mesh_bridge.dress_of(new)
         put_beside(new, source, shift)
         with suppress(RuntimeError):  # none of its collections is in this view layer

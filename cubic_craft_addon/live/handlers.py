@@ -11,29 +11,14 @@ from .machine import Event
 _session = None
 
 
-@persistent
-def _on_undo(*_):
-    _session.on_undo()
+def _told(method, *what):
+    """Return a handler that calls a method of the session."""
 
+    @persistent
+    def tell(*_):
+        getattr(_session, method)(*what)
 
-@persistent
-def _on_load(*_):
-    _session.on(Event.LOAD)
-
-
-@persistent
-def _on_save(*_):
-    _session.on(Event.SAVE)
-
-
-@persistent
-def _on_saved(*_):
-    _session.on(Event.SAVED)
-
-
-@persistent
-def _on_frame(*_):
-    _session.on_object_update()
+    return tell
 
 
 @persistent
@@ -65,13 +50,13 @@ def _on_update(_scene, depsgraph):
 
 
 _HANDLERS = (
-    ("undo_post", _on_undo),
-    ("redo_post", _on_undo),
-    ("load_pre", _on_load),
-    ("save_pre", _on_save),
-    ("save_post", _on_saved),
-    ("save_post_fail", _on_saved),
-    ("frame_change_post", _on_frame),
+    ("undo_post", _told("on_undo")),
+    ("redo_post", _told("on_undo")),
+    ("load_pre", _told("on", Event.LOAD)),
+    ("save_pre", _told("on", Event.SAVE)),
+    ("save_post", _told("on", Event.SAVED)),
+    ("save_post_fail", _told("on", Event.SAVED)),
+    ("frame_change_post", _told("on_object_update")),
     ("depsgraph_update_post", _on_update),
 )
 

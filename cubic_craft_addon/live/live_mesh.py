@@ -24,17 +24,15 @@ class LiveMesh:
     It keeps no reference to Blender's data, which undo frees: the mesh is passed again to
     each call, and identified by its ``session_uid``.
 
-    Attributes
-    ----------
-    object_uid, mesh_uid : int
-    run : StepwiseRun
-        The run that it takes part in; an idle one if it takes part in none.
-    member : Member or None
-        The data last read from it.
+    `run`: the one that it takes part in; an idle one if it takes part in none. `member`: the data
+    last read from it.
     """
 
     is_as_seen = False
     """whether its run is of the visible mesh, with modifiers"""
+    follower_uid = shown_uid = 0
+    """``session_uid`` of the object beside the original on which it shows the result, and of the
+    mesh of that; 0 for none"""
 
     def __init__(self, task: Task, is_shown: bool):
         self.object_uid = task.uid
@@ -61,16 +59,6 @@ class LiveMesh:
     def is_seen(self):
         """Whether the current run has been shown, if it is shown at all."""
         return self._preview is None or self._shown_moment is not None
-
-    @property
-    def follower_uid(self):
-        """``session_uid`` of the object beside the original on which it shows the result; or 0."""
-        return 0
-
-    @property
-    def shown_uid(self):
-        """``session_uid`` of the mesh on which it shows what is on no mesh of the artist; or 0."""
-        return 0
 
     def follower(self) -> bpy.types.Object | None:
         """Return the object beside the original on which it shows the result, None for none."""

@@ -168,11 +168,7 @@ _TABLE = {
 class Machine:
     """The state of one Live session.
 
-    Attributes
-    ----------
-    state : State
-    end_message : str
-        Why it has ended, if the artist must be told.
+    `end_message`: why it has ended, if the artist must be told.
     """
 
     def __init__(self):

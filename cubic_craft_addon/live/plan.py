@@ -18,18 +18,11 @@ from .live_mesh import LiveMesh
 
 
 class Plan:
-    """The tasks of the objects.
+    """The tasks of the objects, which are valid only within one event.
 
-    Attributes
-    ----------
-    tasks : dict of Task
-        By ``session_uid`` of the objects, that of the active one first; valid only within one
-        event.
-    groups : dict of list of Task
-        Those that are solved together, by their ``session_uid``.
-    overrides : SettingsOverrides
-    problems : list of str
-        What is wrong with the settings or the objects.
+    `tasks`: by ``session_uid`` of the objects, that of the active one first. `groups`: those that
+    are solved together, by their ``session_uid``. `problems`: what is wrong with the settings or
+    the objects, as texts.
     """
 
     def __init__(self):

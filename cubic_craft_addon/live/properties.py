@@ -10,6 +10,7 @@ from typing import Any
 import bpy
 from bpy.props import PointerProperty
 
+from ..environment.declared import added
 from ..presets.selector import preset_property
 from ..screen import glimpse
 from ..settings.overrides import (
@@ -96,18 +97,9 @@ def live_overrides(objects: list[bpy.types.Object]) -> SettingsOverrides:
     return SettingsOverrides(values, found, poses=posed)
 
 
-def register():
-    """Add `WindowManager.cubic_craft_live`."""
-    bpy.utils.register_class(CubicCraftLiveProperties)
-    declaration = PointerProperty(type=CubicCraftLiveProperties, options={"SKIP_SAVE"})
-    setattr(bpy.types.WindowManager, _NAME, declaration)
-
-
-def unregister():
-    """Remove `WindowManager.cubic_craft_live`."""
-    delattr(bpy.types.WindowManager, _NAME)
-    bpy.utils.unregister_class(CubicCraftLiveProperties)
-
+_pointer = PointerProperty(type=CubicCraftLiveProperties, options={"SKIP_SAVE"})
+_added = bpy.types.WindowManager, {_NAME: _pointer}, CubicCraftLiveProperties
+register, unregister = added(*_added)
 
 _Values = dict[str, Any]
 _last: tuple[frozenset[int], _Values, _Values] | None = None

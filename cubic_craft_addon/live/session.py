@@ -15,8 +15,7 @@ from .. import mesh_bridge
 from ..environment.modes import MODES
 from ..handles.pose import rebase_edited_handles
 from ..object_properties import object_properties
-from ..screen import status_text
-from ..screen.redraw import redraw_panels
+from ..screen.redraw import draw_status, redraw_panels, waiting
 from ..settings.overrides import ALL
 from . import elsewhere, handlers, meshes, poses, properties
 from .followed_mesh import FollowedMesh
@@ -83,7 +82,7 @@ class Session:
             self._show_again()
             handlers.install(self)
             # Blender wants a function, and takes no method.
-            status_text.show(lambda header, _context: self._draw_keys(header))
+            draw_status(lambda header, _context: self._draw_keys(header))
             self._start_timer()
         except Exception:
             self._put_back()
@@ -364,7 +363,7 @@ class Session:
         meshes.begin_previews(self.meshes, self._plan)
 
     def _complete(self):
-        with elsewhere.waiting(self._window):
+        with waiting(self._window):
             if self._following.is_waiting:
                 self._follow_originals(time.perf_counter(), is_hurried=True)
             self._runs.complete(_PATIENCE)
@@ -400,7 +399,7 @@ class Session:
     def _clean_up(self):
         self._stop_timer()
         handlers.remove()
-        status_text.hide()
+        draw_status(None)
         poses.set_live_poses({})
         self._plan.release()
         self._runs.release()

@@ -53,14 +53,8 @@ def _loses_key(task):
 class Written:
     """What has been written.
 
-    Attributes
-    ----------
-    summary : str
-        As from `tasks.write_all`; empty if nothing was written.
-    problems : list of str
-        Why something could not be written.
-    has_pushed_undo : bool
-        Whether it has its undo step already.
+    `summary`: as from `tasks.write_all`; empty if nothing was written. `problems`: why something
+    could not be written, as texts. `has_pushed_undo`: whether it has its undo step already.
     """
 
     def __init__(self):
@@ -82,7 +76,8 @@ class Written:
     def push_undo(self) -> None:
         """Push an undo step for what was written, if anything was."""
         if self.summary:
-            elsewhere.push_undo_soon()
+            # once Blender is done with what it does now
+            bpy.app.timers.register(elsewhere.push_undo, first_interval=0.0)
 
     def write(self, plan: Plan, meshes: Sequence[LiveMesh], problems: Sequence[str]) -> None:
         """Write all that is solved; `problems` are those of what is not."""

@@ -60,8 +60,6 @@ class Facets:
 
     positions: np.ndarray
     """(n,3) float32, object space; vertices that do not move keep their bits"""
-    facet_of: np.ndarray
-    """(m,) int, the planar facet of each triangle, or -1"""
     count: int
     """number of planar facets"""
     moved: int
@@ -108,7 +106,7 @@ def flat_facets(
     if with_polygons:
         surface = Surface(mesh_bridge.mesh_of(obj), present, placement, directions, walls, counts)
         polygons = surface.polygons(tolerance)
-    return Facets(positions, flat.facet_of, flat.count, flat.moved, flat.largest_move, polygons)
+    return Facets(positions, flat.count, flat.moved, flat.largest_move, polygons)
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from .access.checks import (
 )
 from .access.dress import dress_of
 from .access.group_names import set_groups_aside
+from .access.note import LastRun, last_run
 from .access.sharp_edges import (
     are_wanted,
     only_shades,
@@ -37,7 +38,6 @@ from .access.triangulation import (
 from .access.vertex_groups import group_weights, vertex_group, weights_of_groups
 from .memory.cubic_key import find_cubic_key
 from .memory.first_original import has_first
-from .memory.last_run import LastRun, last_run
 from .memory.original import (
     Start,
     has_original,
@@ -76,6 +76,6 @@ from .result.results import (
     write_reshaped,
     write_shape_key,
 )
-from .result.rollback import carry_result, mesh_untouched
+from .result.rollback import after_errors, carry_result, mesh_untouched
 from .result.shading import shade_edges, shade_shape
 from .result.transferred_keys import key_offsets, places_on, shares_of, transfer_keys

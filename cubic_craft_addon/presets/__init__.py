@@ -5,14 +5,4 @@
 that the panel shows, with a picture of each, and ``panel`` draws it.
 """
 
-from .selector import forget, free
-
-
-def register():
-    """Wait for the panel, which loads what it shows."""
-
-
-def unregister():
-    """Free what was loaded."""
-    forget()
-    free()
+from .selector import forget as unregister

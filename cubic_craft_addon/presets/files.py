@@ -11,14 +11,15 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import bpy
 
 from ...solver import CubicCraftError
+from ...solver.console.sources import folded
 from ...solver.method import LOOK
-from ..environment.file_names import folded
 from ..object_properties import PROPERTY
 from .included import INCLUDED
 
@@ -27,8 +28,6 @@ PICTURES = Path(__file__).parents[1] / "assets" / "presets"
 _SUBFOLDER = "cubic_craft"
 _PREFIX = "bpy.context.object.cubic_craft."
 _FORBIDDEN = str.maketrans({char: "_" for char in " !@#$%^&*(){}:\";'[]<>,.\\/?|`~=+\n\t"})
-_known: list[Preset] = []
-_stamp: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -65,17 +64,18 @@ class Preset:
 
 def presets() -> list[Preset]:
     """Return all presets: included ones, then those of the artist, each from its first file."""
-    global _known, _stamp
-    stamp = tuple(map(_stamp_of, bpy.utils.preset_paths(_SUBFOLDER)))
-    if stamp != _stamp or not _known:
-        found = {name: Preset(name, *look) for name, look in INCLUDED.items()}
-        paths = (Path(path) for files in stamp for path, *_ in files)
-        for path in sorted(paths, key=lambda path: path.stem.lower()):
-            preset = _read(path)
-            if preset is not None:
-                found.setdefault(preset.identifier, preset)
-        _known, _stamp = list(found.values()), stamp
-    return _known
+    return _presets_of(tuple(map(_stamp_of, bpy.utils.preset_paths(_SUBFOLDER))))
+
+
+@lru_cache(maxsize=1)
+def _presets_of(stamp: tuple) -> list[Preset]:
+    found = {name: Preset(name, *look) for name, look in INCLUDED.items()}
+    paths = (Path(path) for files in stamp for path, *_ in files)
+    for path in sorted(paths, key=lambda path: path.stem.lower()):
+        preset = _read(path)
+        if preset is not None:
+            found.setdefault(preset.identifier, preset)
+    return list(found.values())
 
 
 def find(identifier: str) -> Preset:
@@ -112,7 +112,7 @@ def save(name: str, properties: Any) -> Path:
         path.write_text("".join(["import bpy\n\n", *lines]), encoding="utf-8")
     except OSError as error:
         raise CubicCraftError(f"{path} cannot be written: {error.strerror}") from error
-    _forget()
+    _presets_of.cache_clear()  # the clock of the file may not have gone on
     return path
 
 
@@ -129,12 +129,7 @@ def remove(preset: Preset) -> None:
     except OSError as error:
         raise CubicCraftError(f"{preset.path} cannot be deleted: {error.strerror}") from error
     finally:
-        _forget()
-
-
-def _forget():
-    global _stamp
-    _stamp = ()
+        _presets_of.cache_clear()
 
 
 def _stamp_of(folder):

@@ -29,14 +29,6 @@ def icon_of(preset: Preset | None) -> int:
     return _collection[key].icon_id
 
 
-def free() -> None:
-    """Release all pictures."""
-    global _collection
-    if _collection is not None:
-        bpy.utils.previews.remove(_collection)
-        _collection = None
-
-
 CUSTOM, CUSTOM_NAME = "CUSTOM", "Custom"
 
 _texts: dict[str, str] = {}  # all displayed items: Blender does not keep them alive
@@ -81,10 +73,13 @@ def apply(identifier: str, properties: Any) -> Preset:
 
 
 def forget() -> None:
-    """Release the displayed items."""
-    global _last_applied
+    """Release the displayed items and all pictures."""
+    global _last_applied, _collection
     _last_applied = ""
     _texts.clear()
+    if _collection is not None:
+        bpy.utils.previews.remove(_collection)
+        _collection = None
 
 
 def _items_of(properties, _context) -> Any:

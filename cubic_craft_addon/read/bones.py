@@ -44,46 +44,30 @@ def read_bones(
     whole: Whole,
     alone: Placement,
     known: Bones | None = None,
+    rigged: bpy.types.Object | None = None,
 ) -> Bones | None:
     """Read the bones of an object, None if none moves it.
 
     `original`: (n,3), object space. `alone`: where the object is solved alone. `known`: Bones,
-    optional, of the same shape, placement and weights; what has not changed is reused.
+    optional, of the same shape, placement and weights; what has not changed is reused. `rigged`:
+    Object, optional, whose modifiers the mesh was made with, and whose present pose it has.
     """
-    places = bone_places(obj)
+    places = bone_places(obj, rigged)
     if places is None:
         return None
     if known is not None and known.places.groups != places.groups:
         known = None
     if known is not None and known.places == places and known.whole is whole:
         return known
+    pose = read_pose(rigged, places) if rigged is not None else None
+    if rigged is not None and pose is None:
+        return None
     weights = known.weights if known else _read_weights(obj, places.groups)
     if not len(weights.vertex):
         return None
-    return Bones(places, weights, whole, alone.place(whole.images(original)), alone)
-
-
-def read_posed_bones(
-    obj: bpy.types.Object,
-    original: np.ndarray,
-    whole: Whole,
-    alone: Placement,
-    rigged: bpy.types.Object,
-) -> Bones | None:
-    """Read the bones of a mesh that has taken over the present pose of another object.
-
-    `obj`, `original`, `whole`, `alone`: as for `read_bones`; the vertex groups are those of this
-    one. `rigged`: whose modifiers the mesh was made with.
-    """
-    places = bone_places(obj, rigged)
-    pose = places and read_pose(rigged, places)
-    if places is None or pose is None:
-        return None
-    weights = _read_weights(obj, places.groups)
-    if not len(weights.vertex):
-        return None
-    at_rest = _unposed(original, weights, np.reshape(pose, (-1, 4, 4)))
-    return Bones(places, weights, whole, alone.place(whole.images(at_rest)), alone, pose)
+    if pose is not None:
+        original = _unposed(original, weights, np.reshape(pose, (-1, 4, 4)))
+    return Bones(places, weights, whole, alone.place(whole.images(original)), alone, pose)
 
 
 def read_pose(obj: bpy.types.Object, places: BonePlaces) -> tuple[float, ...] | None:

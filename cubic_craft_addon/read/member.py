@@ -26,7 +26,7 @@ from .. import handles, mesh_bridge
 from ..environment.requirements import check_requirements
 from ..regions.region import shares_of
 from ..settings.values import Settings
-from .bones import read_bones, read_posed_bones
+from .bones import read_bones
 from .cages import read_cage
 from .object_frame import placements
 from .reflections import modifier_reflections
@@ -222,9 +222,8 @@ def _map_weights(settings, weights):
 def _bones(obj, settings, whole, alone, shape, known, rigged):
     if not settings.keep_pose:
         return None
-    if rigged is not None:
-        return read_posed_bones(obj, shape.original, whole, alone, rigged)
-    return read_bones(obj, shape.original, whole, alone, known and known.bones)
+    earlier = known.bones if known and rigged is None else None
+    return read_bones(obj, shape.original, whole, alone, earlier, rigged)
 
 
 def _whole(name, shape, reflections, settings):

@@ -25,18 +25,13 @@ _DIGITS = 5  # of the stretch; the world matrix is made of 32 bit numbers
 _SMALLEST_TURN = 1e-6  # radians; smaller rotations of the cube are ignored
 
 
-def world_at_rest(obj: bpy.types.Object) -> Matrix:
-    """Return the matrix of an object to the world, with the bones that carry it at rest.
-
-    It is `matrix_world` if none does, if no visible mesh of the scene is deformed by those bones,
-    which then have no rest pose to be seen in, and for objects in no scene: these are ours, and
-    have the shape that is seen in the present pose (see `mesh_bridge.make_seen`).
-    """
-    return _carried_back(obj) @ obj.matrix_world
-
-
 def _carried_back(obj):
-    """Return the matrix (4,4) in the world from the present pose to the one at rest."""
+    """Return the matrix (4,4) in the world from the present pose of the bones that carry an object.
+
+    It leads to the one at rest; nowhere if none does, if no visible mesh of the scene is deformed
+    by those bones, which then have no rest pose to be seen in, and for objects in no scene: these
+    are ours, and have the shape that is seen in the present pose (see `mesh_bridge.make_seen`).
+    """
     back = Matrix()
     if not obj.users_scene:
         return back
@@ -107,11 +102,11 @@ def placement_alone(
 
 
 def _world(obj, is_posed=False):
-    """Return the matrix of an object to the world.
+    """Return the matrix of an object to the world, with what carries it at rest or as it is posed.
 
     Raises CubicCraftError: its scale or rotation is not finite.
     """
-    world = obj.matrix_world if is_posed else world_at_rest(obj)
+    world = obj.matrix_world if is_posed else _carried_back(obj) @ obj.matrix_world
     if not np.isfinite(np.array(world.to_3x3())).all():
         raise CubicCraftError(f'"{obj.name}" has a scale or rotation that is not finite; clear it')
     return world

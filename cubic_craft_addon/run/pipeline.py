@@ -162,33 +162,13 @@ def solve(
     run = start(problem)
     try:
         run.complete(on_iteration)
-        return solutions_of(problem, run)
+        return solutions_of(problem, run.result())
     except solver.CubicCraftError as error:
         raise solver.CubicCraftError(f"{problem.name}: {error}") from error
 
 
-def intermediate_result(problem: MemberProblem, run: solver.Run, with_rotations: bool):
-    """Return the current positions and rotations of a run, as in a Solution.
-
-    One pair per member. The rotations take time, and are None unless requested.
-    """
-    if with_rotations:
-        return read_back(problem, *run.placed())
-    return read_back(problem, run.positions(), None)
-
-
-def solutions_of(problem: MemberProblem, run: solver.Run) -> tuple[Solution, ...]:
-    """Return a Solution for each member; the run cannot be continued afterwards."""
-    return _solutions(problem, run.result())
-
-
-def solutions_so_far(problem: MemberProblem, run: solver.Run) -> tuple[Solution, ...]:
-    """Return the current shape as a Solution for each member; empty before the first iteration."""
-    result = run.so_far()
-    return () if result is None else _solutions(problem, result)
-
-
-def _solutions(problem, result):
+def solutions_of(problem: MemberProblem, result: solver.Result) -> tuple[Solution, ...]:
+    """Return the Result of a run as a Solution for each member."""
     found = read_back(problem, result.positions, result.rotations)
     return tuple(
         Solution(

@@ -29,11 +29,7 @@ class StepwiseRun:
     It keeps no reference to Blender's data, which undo frees: the tasks are passed again to
     each call.
 
-    Attributes
-    ----------
-    problems : list of str
-        Reasons why there is no run, or why objects are excluded, for display.
-    problem : Problem or None
+    `problems`: reasons why there is no run, or why objects are excluded, for display.
     """
 
     def __init__(self):
@@ -242,7 +238,7 @@ class StepwiseRun:
             elif self._is_restyled:
                 self._advance_behind()
             else:
-                solutions = pipeline.solutions_of(self.problem, self._run)
+                solutions = pipeline.solutions_of(self.problem, self._run.result())
                 uids = [member.uid for member in self.problem.pieces]
                 self._solutions, self._seen = dict(zip(uids, solutions, strict=True)), None
         except solver.CubicCraftError as error:
@@ -307,9 +303,10 @@ class StepwiseRun:
             return None
         assert self._run is not None and self.problem is not None
         if self._so_far is None or self._so_far[0] != self._state:
-            found = pipeline.solutions_so_far(self._posed or self.problem, self._run)
+            result = self._run.so_far()  # None before the first iteration
+            found = result and pipeline.solutions_of(self._posed or self.problem, result)
             uids = [member.uid for member in self.problem.pieces]
-            self._so_far = self._state, dict(zip(uids, found, strict=False))
+            self._so_far = self._state, dict(zip(uids, found or (), strict=False))
         return self._so_far[1].get(uid)
 
     @property
@@ -358,7 +355,8 @@ class StepwiseRun:
         moment = (self.moment, with_rotations)
         if moment != self._intermediate_moment:
             problem = self._posed or self.problem
-            found = pipeline.intermediate_result(problem, self._run, with_rotations)
+            placed = self._run.placed() if with_rotations else (self._run.positions(), None)
+            found = pipeline.read_back(problem, *placed)
             members = self.problem.pieces
             self._intermediate = {m.uid: pair for m, pair in zip(members, found, strict=True)}
             self._intermediate_moment = moment

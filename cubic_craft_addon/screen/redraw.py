@@ -2,7 +2,8 @@
 """Redraw what Blender redraws by itself only after changes by the artist."""
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import bpy
 
@@ -19,6 +20,25 @@ def redraw_views() -> None:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
                 area.tag_redraw()
+
+
+def draw_status(draw: Callable[[Any, bpy.types.Context], None] | None) -> None:
+    """Draw the status bar with a function from now on, or with None as Blender does; now, too."""
+    # A function, as opposed to a text, is shown in all workspaces: any of them will do.
+    bpy.data.workspaces[0].status_text_set(draw)
+
+
+@contextlib.contextmanager
+def waiting(window: bpy.types.Window | None) -> Iterator[None]:
+    """Show that Blender computes, if there is a window."""
+    if window is None:
+        yield
+        return
+    window.cursor_modal_set("WAIT")
+    try:
+        yield
+    finally:
+        window.cursor_modal_restore()
 
 
 def find_button_under_mouse() -> None:

@@ -3,7 +3,7 @@
 
 import contextlib
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
@@ -25,16 +25,6 @@ SCALES = (
 
 
 @dataclass
-class Sent:
-    """A file that was written."""
-
-    done: str
-    """one line about it"""
-    problems: list[str] = field(default_factory=list)
-    """what the artist should know, one line each"""
-
-
-@dataclass
 class Ready:
     """What can be written now."""
 
@@ -43,22 +33,26 @@ class Ready:
     facts: list[str]
     """about what is written"""
     problems: list[str]
+    """what the artist should know, one line each"""
 
 
-def send(target: str, objects: list[bpy.types.Object], path: Path, options: Options) -> Sent:
+def send(target: str, objects: list[bpy.types.Object], path: Path, options: Options):
     """Write mesh objects, and the armatures that pose them, to one file.
 
     The file is complete, or as it was before. Selection, meshes and frame are kept.
 
     `target`: one of `TARGETS`. `objects`: meshes in Object Mode. `path`: pathlib.Path, with the
-    suffix of the target. Raises CubicCraftError: there is nothing to write, or no way to write it
-    there.
+    suffix of the target. Returns one line about the file, and the problems. Raises CubicCraftError:
+    there is nothing to write, or no way to write it there.
     """
     exporter(target)
-    _check_path(path)
+    if path.is_dir():
+        raise CubicCraftError(f'"{path.name}" is a folder; type the name of a file')
+    if not path.parent.is_dir():
+        raise CubicCraftError(f'there is no folder "{path.parent}"; create it or choose another')
     with ready(target, objects, options) as it:
         size = _write(it.write, path)
-    return Sent(f'Wrote "{path.name}": {", ".join(it.facts)}, {size / 1e6:,.2f} MB', it.problems)
+    return f'Wrote "{path.name}": {", ".join(it.facts)}, {size / 1e6:,.2f} MB', it.problems
 
 
 @contextlib.contextmanager
@@ -76,7 +70,8 @@ def ready(target: str, objects: list[bpy.types.Object], options: Options) -> Ite
     is_modified = kind.is_printed or _can_apply(objects, options, problems)
     facts = [f"{len(objects)} object{'s' * (len(objects) > 1)}"]
     if kind.is_printed:
-        facts.append(_size_in_words(objects, options.scale))
+        sides = (f"{side:,.4g}" for side in extent(objects) * options.scale)
+        facts.append(f"{' x '.join(sides)} mm")
     chosen = settings(target, objects, options, is_modified=is_modified)
     posed = [] if kind.is_printed else objects
     armatures = {armature for obj in posed for armature in armatures_of(obj)}
@@ -92,13 +87,6 @@ def ready(target: str, objects: list[bpy.types.Object], options: Options) -> Ite
         missing = stack.enter_context(only_selected([*objects, *armatures]))
         problems += [f'"{name}" cannot be selected: it was not written' for name in missing]
         yield Ready(lambda path: run(filepath=str(path), **chosen), facts, problems)
-
-
-def _check_path(path: Path) -> None:
-    if path.is_dir():
-        raise CubicCraftError(f'"{path.name}" is a folder; type the name of a file')
-    if not path.parent.is_dir():
-        raise CubicCraftError(f'there is no folder "{path.parent}"; create it or choose another')
 
 
 def _can_apply(objects: list[bpy.types.Object], options: Options, problems: list[str]) -> bool:
@@ -129,10 +117,6 @@ def _points_in_world(obj):
     points = mesh_bridge.read_evaluated_points(obj)[0]
     matrix = np.array(obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world)
     return points @ matrix[:3, :3].T + matrix[:3, 3]
-
-
-def _size_in_words(objects, scale):
-    return " x ".join(f"{side:,.4g}" for side in extent(objects) * scale) + " mm"
 
 
 def _write(run: Callable[[Path], object], path: Path) -> int:

@@ -11,9 +11,10 @@ from ...solver import CubicCraftError
 from ..mesh_bridge import read_values
 from .bake import Studio
 from .split import OldSurface, split_for_keys
-from .uv_overlap import fits_unit_square, overlap
+from .uv_overlap import overlap
 
 _OVERLAP = 0.01  # of what is covered: as much as decimation may leave along seams
+_INSIDE = 1e-4  # how far a UV map may reach out of the unit square
 _HARD = math.radians(30)  # edges between UV islands with larger angles are hard
 _HARD_INSIDE = math.radians(50)  # those inside of islands
 _UNWRAPPED = math.radians(60)  # largest angle between faces and what they are projected to
@@ -131,7 +132,8 @@ def set_hard_edges(mesh: bpy.types.Mesh, name: str) -> None:
 
 def _is_usable(mesh: Any) -> bool:
     uv = uv_of_triangles(mesh, mesh.uv_layers.active.name)
-    return fits_unit_square(uv) and overlap(uv) < _OVERLAP
+    is_in_image = bool((uv > -_INSIDE).all() and (uv < 1 + _INSIDE).all())
+    return is_in_image and overlap(uv) < _OVERLAP
 
 
 def _unwrap(studio: Studio, obj: bpy.types.Object, margin: float) -> None:

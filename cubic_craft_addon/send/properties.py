@@ -32,4 +32,3 @@ class CubicCraftNormalMap(NormalMapProperties, bpy.types.PropertyGroup):
 
 
 normal_map_settings = SceneSettings("cubic_craft_normal_map", MapOptions, CubicCraftNormalMap)
-register, unregister = normal_map_settings.register, normal_map_settings.unregister

@@ -65,7 +65,9 @@ def target_of(suffix: str) -> str:
 def settings(
     target: str, objects: list[bpy.types.Object], options: Options, *, is_modified: bool
 ) -> dict[str, Any]:
-    """Return the settings of the exporter; those that this version does not know are left out.
+    """Return the settings of the exporter that are not Blender's own defaults.
+
+    Those that this version does not know are left out.
 
     `target`: one of `TARGETS`. `objects`: the meshes that are written. `is_modified`: whether
     modifiers are applied.
@@ -91,22 +93,11 @@ def _gltf(objects: list[bpy.types.Object], options: Options, is_modified: bool) 
     return {
         "export_format": "GLB",
         "use_selection": True,
-        "export_yup": True,
         "export_apply": is_modified,
         "export_attributes": True,
-        "export_texcoords": True,
-        "export_normals": True,
         "export_tangents": any(has_normal_map(obj) for obj in objects),
-        "export_materials": "EXPORT",
-        "export_skins": True,
-        "export_morph": True,
-        "export_morph_normal": True,
         "export_animations": options.with_animation,
         "export_current_frame": True,  # the shape and place that are seen
-        "export_extras": False,
-        "export_cameras": False,
-        "export_lights": False,
-        "will_save_settings": False,
     }
 
 
@@ -114,19 +105,12 @@ def _fbx(objects: list[bpy.types.Object], options: Options, is_modified: bool) -
     return {
         "use_selection": True,
         "object_types": {"MESH", "ARMATURE"},
-        "axis_forward": "-Z",
-        "axis_up": "Y",
-        "apply_unit_scale": True,
         "apply_scale_options": "FBX_SCALE_ALL",  # a scale of 1 in Unity and in Unreal
         "use_mesh_modifiers": is_modified,
         "use_mesh_modifiers_render": False,  # what is seen in the viewport
         "mesh_smooth_type": "FACE",
-        "use_triangles": False,  # the faces of the artist
-        "colors_type": "SRGB",
         "prioritize_active_color": True,
-        "use_custom_props": False,
         "add_leaf_bones": False,
-        "use_armature_deform_only": False,
         "bake_anim": options.with_animation,
         "path_mode": "COPY",
         "embed_textures": True,
@@ -136,11 +120,7 @@ def _fbx(objects: list[bpy.types.Object], options: Options, is_modified: bool) -
 def _stl(objects: list[bpy.types.Object], options: Options, is_modified: bool) -> dict[str, Any]:
     return {
         "export_selected_objects": True,
-        "ascii_format": False,
         "global_scale": options.scale,
-        "use_scene_unit": False,  # is part of the scale
-        "forward_axis": "Y",
-        "up_axis": "Z",
         "apply_modifiers": is_modified,
     }
 
@@ -172,7 +152,6 @@ def _alembic(
         "selected": True,
         "start": start,
         "end": end,
-        "as_background_job": False,
         "evaluation_mode": "VIEWPORT",
     }
 

@@ -4,12 +4,6 @@
 import numpy as np
 
 _TEXELS = 256  # along a side, at which overlaps are looked for
-_INSIDE = 1e-4  # how far a UV map may reach out of the unit square
-
-
-def fits_unit_square(uv: np.ndarray) -> bool:
-    """Return whether UVs (..., 2) lie in the image."""
-    return bool((uv > -_INSIDE).all() and (uv < 1 + _INSIDE).all())
 
 
 def overlap(uv: np.ndarray) -> float:

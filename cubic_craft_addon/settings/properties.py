@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, IntProperty, PointerProperty, StringProperty
 
-from ..environment.declared import declared
+from ..environment.declared import added, declared
 from ..form.pictures import items as form_items
 from ..form.settings import form_property
 from ..handles import Handle
@@ -130,13 +130,5 @@ def settings_of(
     return Settings(handles=handles, regions=regions, **values)
 
 
-def register():
-    """Add `Object.cubic_craft`."""
-    bpy.utils.register_class(CubicCraftProperties)
-    setattr(bpy.types.Object, PROPERTY, PointerProperty(type=CubicCraftProperties))
-
-
-def unregister():
-    """Remove `Object.cubic_craft`; the values stay in the file."""
-    delattr(bpy.types.Object, PROPERTY)
-    bpy.utils.unregister_class(CubicCraftProperties)
+_properties = PointerProperty(type=CubicCraftProperties)
+register, unregister = added(bpy.types.Object, {PROPERTY: _properties}, CubicCraftProperties)

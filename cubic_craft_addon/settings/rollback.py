@@ -2,29 +2,25 @@
 """Restore the settings of objects if the work that they belong to fails, or copy them."""
 
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
+from functools import partial
 from typing import Any
 
 import bpy
 
+from .. import mesh_bridge
 from ..object_properties import PROPERTY, has_properties, object_properties, users_of
 from ..screen import glimpse
 
 _DERIVED = ("preset",)  # derived from the others: setting it would set them
 
 
-@contextmanager
-def settings_kept(meshes: Iterable[bpy.types.Mesh]) -> Iterator[None]:
+def settings_kept(meshes: Iterable[bpy.types.Mesh]) -> AbstractContextManager[None]:
     """Restore the settings of all objects that use the meshes if the block raises.
 
     Handles and regions may change in it, but none may be added or removed.
     """
-    before = _read_all(meshes)
-    try:
-        yield
-    except BaseException:
-        _put_all_back(before)
-        raise
+    return mesh_bridge.after_errors(partial(_put_all_back, _read_all(meshes)))
 
 
 @contextmanager

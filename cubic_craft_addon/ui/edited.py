@@ -57,7 +57,7 @@ def draw(context: bpy.types.Context, layout: bpy.types.UILayout, obj: bpy.types.
     if is_lost(mesh):
         draw_wrapped(context, layout.box(), _LOST, taken=_BOX)
         return
-    if not has_edits(mesh):
+    if not (mesh_bridge.has_strokes(mesh) or is_edited(mesh)):  # also edits of earlier results
         return
     properties = object_properties(obj)
     box = layout.box()
@@ -69,11 +69,6 @@ def draw(context: bpy.types.Context, layout: bpy.types.UILayout, obj: bpy.types.
         draw_wrapped(context, box, _REPLACED, taken=_BOX)
     elif _found_out(mesh, _posed, lambda _: is_posed_anew(obj)):
         draw_wrapped(context, box, _POSED, taken=_BOX)
-
-
-def has_edits(mesh: bpy.types.Mesh) -> bool:
-    """Return whether the result was edited by hand, or has edits of earlier ones in it."""
-    return mesh_bridge.has_strokes(mesh) or is_edited(mesh)
 
 
 def is_edited(mesh: bpy.types.Mesh) -> bool:

@@ -34,25 +34,18 @@ class VIEW3D_MT_object_cubic_craft(bpy.types.Menu):
     def draw(self, context):
         """Draw the entries, and the setting that characters need."""
         assert context is not None
-        layout = self.layout
+        layout, obj = self.layout, panel_object(context)
         layout.operator_context = "INVOKE_REGION_WIN"
         for entry in _ENTRIES:
             if entry is None:
                 layout.separator()
                 continue
             identifier, text, icon = entry
-            if identifier == _RESTORE_FIRST and not _has_first(context):
-                continue
-            layout.operator(identifier, text=text, icon=icon)
-        obj = panel_object(context)
+            if identifier != _RESTORE_FIRST or (obj and mesh_bridge.has_first(obj.data)):
+                layout.operator(identifier, text=text, icon=icon)
         if obj is not None:
             layout.separator()
             layout.prop(object_properties(obj), "keep_pose")
-
-
-def _has_first(context: bpy.types.Context) -> bool:
-    obj = panel_object(context)
-    return obj is not None and mesh_bridge.has_first(mesh_bridge.mesh_of(obj))
 
 
 def _draw_entry(self: Any, _context: bpy.types.Context) -> None:

@@ -23,7 +23,7 @@ from ..screen.text_fit import draw_wrapped, is_narrow
 from ..send import panel as send_panel
 from ..settings.properties import settings_of
 from . import buttons, edited, header, seen, status_panel
-from .settings_rows import draw_advanced, draw_solver, draw_volume
+from .settings_rows import draw_advanced, draw_orientation, draw_solver, draw_volume
 from .symmetry_panel import draw_symmetry
 
 DEFAULT_TAB = "Cubic Craft"
@@ -118,13 +118,7 @@ def _draw_problem(context, layout, text):
 def _draw_orientation(layout, obj):
     properties = live.shared_properties(obj)
     layout.prop(bpy.context.window_manager, form_overlay.PROPERTY)
-    layout.prop(properties, "space")
-    if properties.space == "FRAME":
-        if live.current():
-            layout.prop_search(properties, "frame", bpy.data, "objects")
-        else:
-            layout.prop(properties, "frame")
-    layout.prop(properties, "orientation")
+    draw_orientation(layout, properties, is_by_name=live.current() is not None)
     layout.operator("cubic_craft.auto_orient", icon="ORIENTATION_LOCAL")
 
 

@@ -6,8 +6,20 @@
 
 from typing import Any
 
+import bpy
+
 from ...solver.method import Advanced, Computation, Kept
 from ...solver.setting import declared
+
+
+def draw_orientation(layout: Any, properties: Any, *, is_by_name: bool) -> None:
+    """Draw how the form is turned, and the object that it is relative to; Live has its name."""
+    layout.prop(properties, "space")
+    if properties.space == "FRAME" and is_by_name:
+        layout.prop_search(properties, "frame", bpy.data, "objects")
+    elif properties.space == "FRAME":
+        layout.prop(properties, "frame")
+    layout.prop(properties, "orientation")
 
 
 def draw_volume(layout: Any, properties: Any) -> None:

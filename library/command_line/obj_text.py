@@ -24,19 +24,10 @@ _MOST_VERTICES = 2**31 - 1  # more than fit into any memory
 class ObjText:
     """An .obj file.
 
-    Attributes
-    ----------
-    points : (n,3) numpy array
-    faces : list of (s,) numpy int arrays
-        In the order of the file; triangles in place of those that have a vertex twice.
-    triangles : (m,3) numpy int array
-        A virtual triangulation of the faces.
-    face_count : int
-
-    Raises
-    ------
-    InputError
-        A vertex or a face makes no sense; the message lacks the path, and has the line.
+    `points`: (n,3). `faces`: list of (s,) int arrays in the order of the file; triangles in place
+    of those that have a vertex twice. `triangles`: (m,3) int, a virtual triangulation of the faces.
+    Raises InputError: a vertex or a face makes no sense; the message lacks the path, and has the
+    line.
     """
 
     def __init__(self, path: Path) -> None:

@@ -27,17 +27,9 @@ _LARGEST = 1e75  # the fourth power is finite
 class SceneFile:
     """A file of any format but .obj.
 
-    Attributes
-    ----------
-    points : (n,3) numpy array
-        In the coordinates of the scene, where each node shows them.
-    triangles, faces : (m,3) numpy int array
-    face_count : int
-
-    Raises
-    ------
-    InputError
-        It has no surface that can be replaced; the message lacks the path.
+    `points`: (n,3) in the coordinates of the scene, where each node shows them. `triangles`,
+    `faces`: (m,3) int. Raises InputError: it has no surface that can be replaced; the message lacks
+    the path.
     """
 
     def __init__(self, path: Path) -> None:

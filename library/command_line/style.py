@@ -19,6 +19,7 @@ def stylized(points: np.ndarray, faces: Faces, options: Namespace) -> Result:
 
     Raises CubicCraftError: the solver refuses the mesh or an option.
     """
+    turn = Rotation.from_euler("xyz", options.orientation, degrees=True)  # as Blender's XYZ angles
     method = Method(**settings_from(vars(options), *IN_LIBRARY))
     try:
         return stylize(
@@ -28,7 +29,7 @@ def stylized(points: np.ndarray, faces: Faces, options: Namespace) -> Result:
             max_iterations=method.max_iterations,
             tolerance=method.tolerance,
             proxy=proxy_of(method),
-            orientation=orientation_of(options.orientation),
+            orientation=turn.as_matrix().T if any(options.orientation) else None,
             crispness=method.crispness,
             detail_strength=method.detail_strength,
             form=forms.named(options.form, method.form_sides, method.form_weights),
@@ -37,13 +38,3 @@ def stylized(points: np.ndarray, faces: Faces, options: Namespace) -> Result:
         )
     except MemoryError:
         raise CubicCraftError("there is not enough memory for it") from None
-
-
-def orientation_of(degrees: list[float]) -> np.ndarray | None:
-    """Return the rotation (3,3) that maps the axes of the file to those of the form, if it turns.
-
-    The angles are Blender's XYZ Euler angles.
-    """
-    if not any(degrees):
-        return None
-    return Rotation.from_euler("xyz", degrees, degrees=True).as_matrix().T

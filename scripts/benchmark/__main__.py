@@ -41,17 +41,18 @@ def main():
         meshes = {name: mesh for name, mesh in meshes.items() if name in WITH_PYMESHLAB}
     results = {"machine": runs.machine_line(), "runs": count, "pymeshlab": [], "defaults": []}
 
-    def measure(part, function, mesh, cubeness):
-        print(f"{part}: {mesh.name} {cubeness}", flush=True)
-        figures = runs.isolated(function, path=mesh.path, cubeness=cubeness, runs=count)
-        head = {"mesh": mesh.name, "vertices": mesh.vertices, "cubeness": cubeness}
+    def measure(part, function, name, cubeness):
+        print(f"{part}: {name} {cubeness}", flush=True)
+        V, F = meshes[name]
+        figures = runs.isolated(function, V=V, F=F, cubeness=cubeness, runs=count)
+        head = {"mesh": name, "vertices": len(V), "cubeness": cubeness}
         results[part].append(head | figures)
 
-    for mesh in (meshes[name] for name in WITH_PYMESHLAB if name in meshes):
-        for cubeness in (0.2, 0.4) if mesh.vertices < LARGE else (0.4,):
-            measure("pymeshlab", runs.beside_pymeshlab, mesh, cubeness)
-    for mesh in meshes.values():
-        measure("defaults", runs.both_settings, mesh, 0.4)
+    for name in filter(meshes.__contains__, WITH_PYMESHLAB):
+        for cubeness in (0.2, 0.4) if len(meshes[name][0]) < LARGE else (0.4,):
+            measure("pymeshlab", runs.beside_pymeshlab, name, cubeness)
+    for name in meshes:
+        measure("defaults", runs.both_settings, name, 0.4)
     BUILD.mkdir(parents=True, exist_ok=True)
     (BUILD / "results.json").write_text(json.dumps(results), encoding="utf-8")
     path = (BUILD if options.quick else ROOT / "docs") / "benchmarks.md"

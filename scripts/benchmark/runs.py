@@ -18,7 +18,7 @@ from pathlib import Path
 
 from solver import PAPER, ProxyOptions, Setup, SolverOptions, Stylization, rest_mesh, run
 
-from .meshes import blob, read
+from .meshes import blob
 
 PACKAGES = ("numpy", "scipy", "taichi", "quadrants", "cholespy", "pymeshlab", "bpy")
 SETTINGS = {"paper": (PAPER, False), "defaults": (ProxyOptions(), True)}
@@ -91,12 +91,11 @@ def energy_of(setup, cubeness, positions):
     )
 
 
-def beside_pymeshlab(path, cubeness, runs):
+def beside_pymeshlab(V, F, cubeness, runs):
     """Run ours and PyMeshLab in turn, to their own stops; return lists of runs of both.
 
     PyMeshLab's have ``seconds``, and both the judged ``energy`` of the end.
     """
-    V, F = read(path)
     _load_kernels()
     setup = solve(V, F, cubeness, max_iterations=3)[1]  # its time does not count: cold caches
     results = {"ours": [], "pymeshlab": []}
@@ -108,9 +107,8 @@ def beside_pymeshlab(path, cubeness, runs):
     return results
 
 
-def both_settings(path, cubeness, runs):
+def both_settings(V, F, cubeness, runs):
     """Run the settings in turn, each to its own stop; return the runs of each, by name."""
-    V, F = read(path)
     _load_kernels()
     for name in SETTINGS:  # imports, and cold caches
         solve(V, F, cubeness, name, max_iterations=3)

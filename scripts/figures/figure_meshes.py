@@ -19,7 +19,7 @@ from mathutils import Euler, Matrix, Vector
 from cubic_craft.cubic_craft_addon.command_line.options.handles_file import read_handles
 from cubic_craft.cubic_craft_addon.command_line.picture.gallery import YAW, Group, extent_of
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import surface
-from cubic_craft.cubic_craft_addon.command_line.process.progress import ProgressBar
+from cubic_craft.cubic_craft_addon.command_line.process.progress import task
 from cubic_craft.cubic_craft_addon.command_line.reading.load_meshes import Loaded, load
 from cubic_craft.cubic_craft_addon.command_line.solving.cubify_all import handles_of_all
 from cubic_craft.cubic_craft_addon.command_line.writing.detached import detached_copy
@@ -96,9 +96,9 @@ class Model:
 class FigureMeshes:
     """Loads meshes, cubifies them, and makes groups for galleries."""
 
-    def __init__(self, folder: Path | None, bar: ProgressBar, is_rough: bool = False) -> None:
+    def __init__(self, folder: Path | None, is_rough: bool) -> None:
         self._limit = {"max_iterations": ROUGH_ITERATIONS} if is_rough else {}
-        self._folder, self._bar = folder, bar
+        self._folder = folder
         self._model, self._solve = cache(self._load), cache(self._solve_now)
 
     def there(self, names: Sequence[str], instead: Sequence[str]) -> list[Model]:
@@ -156,9 +156,9 @@ class FigureMeshes:
         model = self._model(name)
         bpy.context.window.scene = model.scene
         title = f"{name}, cubeness {settings.cubeness:g}"
-        with self._bar.task(title) as task, refusals_of(model.path or name):
+        with task(title) as shown, refusals_of(model.path or name):
             (solution,) = solve(prepare([read_member(model.object, settings)]))
-            task.finish(f"{solution.result.iterations} iterations, {solution.seconds:.1f} s")
+            shown.summary = f"{solution.result.iterations} iterations, {solution.seconds:.1f} s"
         return solution.positions
 
 

@@ -4,6 +4,7 @@
 from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import bpy
@@ -17,9 +18,19 @@ from cubic_craft.cubic_craft_addon.command_line.picture.gallery import (
 )
 from cubic_craft.cubic_craft_addon.command_line.picture.render import render
 from cubic_craft.cubic_craft_addon.command_line.picture.studio import furnish
-from cubic_craft.cubic_craft_addon.command_line.process.progress import ProgressBar
+from cubic_craft.cubic_craft_addon.command_line.process.progress import task
 
-from . import handles, teaser, uv_texture, versions
+from .compositions import (
+    by_crispness,
+    by_cubeness,
+    by_form,
+    by_orientation,
+    handles,
+    in_two_rows,
+    teaser,
+    uv_texture,
+    versions_of,
+)
 from .figure_meshes import FigureMeshes
 
 NOMINAL_WIDTH = 1600
@@ -37,28 +48,18 @@ class Figure:
     arrange: Callable[[list[Group], bpy.types.Scene, tuple[int, int]], Gallery] = arrange
 
 
-def _versions(*what, **how) -> Callable[[FigureMeshes], list[Group]]:
-    return lambda meshes: versions.compose(meshes, *what, **how)
-
-
+_bunny = partial(versions_of, name="bunny", instead="monkey")
+_fox, _bear = (partial(versions_of, name=name, is_shaded=True) for name in ("fox", "bear"))
 FIGURES = {
-    "1": Figure("figure_1_teaser", teaser.compose, 860, teaser.in_two_rows),
-    "2": Figure("figure_2_uv_texture", uv_texture.compose, 560),
-    "3": Figure("figure_3_handles", handles.compose, 560),
-    "5": Figure("figure_5_cubeness", _versions("bunny", "monkey", versions.by_cubeness), 460),
+    "1": Figure("figure_1_teaser", teaser, 860, in_two_rows),
+    "2": Figure("figure_2_uv_texture", uv_texture, 560),
+    "3": Figure("figure_3_handles", handles, 560),
+    "5": Figure("figure_5_cubeness", partial(_bunny, versions=by_cubeness), 460),
     "6": Figure(
-        "figure_6_orientations",
-        _versions("bunny", "monkey", versions.by_orientation, has_original=False),
-        520,
+        "figure_6_orientations", partial(_bunny, versions=by_orientation, has_original=False), 520
     ),
-    "character": Figure(
-        "figure_character", _versions("fox", "fox", versions.by_crispness, is_shaded=True), 620
-    ),
-    "forms": Figure(
-        "figure_forms",
-        _versions("bear", "bear", versions.by_form, has_original=False, is_shaded=True),
-        700,
-    ),
+    "character": Figure("figure_character", partial(_fox, versions=by_crispness), 620),
+    "forms": Figure("figure_forms", partial(_bear, versions=by_form, has_original=False), 700),
 }
 
 
@@ -68,17 +69,14 @@ def render_figures(wanted: list[str], options: Namespace) -> None:
     `wanted`: keys of `FIGURES`. `options`: from the command line. Raises InputError: a mesh cannot
     be read, or a file cannot be written.
     """
-    bar = ProgressBar()
     with registered():
-        meshes = FigureMeshes(options.meshes, bar, options.rough)
+        meshes = FigureMeshes(options.meshes, options.rough)
         for number in wanted:
-            with bar.task(f"figure {number}") as task:
-                path = render_figure(FIGURES[number], meshes, options)
-                task.finish(f"wrote {path}")
+            with task(f"figure {number}") as shown:
+                shown.summary = f"wrote {_rendered(FIGURES[number], meshes, options)}"
 
 
-def render_figure(figure: Figure, meshes: FigureMeshes, options: Namespace) -> Path:
-    """Render a figure as `render_figures` does, and return the path of the picture."""
+def _rendered(figure: Figure, meshes: FigureMeshes, options: Namespace) -> Path:
     groups = figure.compose(meshes)
     scene = scene_for_gallery()
     for group in groups:
@@ -87,10 +85,7 @@ def render_figure(figure: Figure, meshes: FigureMeshes, options: Namespace) -> P
     gallery = figure.arrange(groups, scene, (NOMINAL_WIDTH, figure.height))
     furnish(gallery, NOMINAL_WIDTH / figure.height)
     path = options.output / f"{figure.name}.png"
-    settings = {
-        **{name: getattr(options, name) for name in ("engine", "samples")},
-        "resolution": (options.width, round(options.width * figure.height / NOMINAL_WIDTH)),
-        "turntable": 0,
-    }
-    list(render(gallery, [path], Namespace(**settings)))
+    height = round(options.width * figure.height / NOMINAL_WIDTH)
+    how = Namespace(**vars(options), resolution=(options.width, height), turntable=0)
+    list(render(gallery, [path], how))
     return path

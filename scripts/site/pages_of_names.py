@@ -2,7 +2,8 @@
 """A hook of MkDocs: each name of the solver reference has a page of its own.
 
 The page ``docs/api.md`` has them in sections. On the site it is their list, each with the first
-sentence of its docstring.
+sentence of its docstring. The docstrings lie in ``solver/``, which the wheel calls ``cubic_craft``:
+their examples import what readers have installed.
 """
 
 import ast
@@ -11,11 +12,16 @@ from functools import cache
 from pathlib import Path
 
 from mkdocs.structure.files import File  # pyright: ignore[reportMissingImports]
-from names_of_the_library import FOLDER
 
 ROOT = Path(__file__).resolve().parents[2]
 LIST = "api.md"
+FOLDER = "api/"
+"""of the site, with the pages"""
 _NAME = re.compile(r"^::: ([\w.]+)\.(\w+)\n(?! )", re.MULTILINE)  # constants have options below
+_IMPORT = re.compile(
+    r'(<span class="kn">from</span>\s*(?:<span class="w"> </span>)?<span class="nn">)solver\b'
+)
+_renamed = []
 
 
 def on_config(config):
@@ -41,6 +47,23 @@ def on_page_markdown(markdown, page, **_):
     return _NAME.sub(
         lambda found: f"- [`{found[2]}`]({_page(found[2])}): {_summary(*found.groups())}", markdown
     )
+
+
+def on_page_content(html, page, **_):
+    """Give the package the name of the wheel."""
+    if not page.file.src_uri.startswith(FOLDER):
+        return html
+    html, count = _IMPORT.subn(r"\1cubic_craft", html)
+    _renamed.extend([page.file.src_uri] * bool(count))
+    return html
+
+
+def on_post_build(**_):
+    """See that there were any."""
+    if not _renamed:
+        raise ValueError(
+            f"no example of {FOLDER} imports the solver; has the highlighting changed?"
+        )
 
 
 @cache

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A hook of MkDocs: the search shows pages for artists first, and references last."""
 
-from names_of_the_library import FOLDER
+from pages_of_names import FOLDER
 
 BOOSTS = {"For artists": 4.0, "Development": 0.5}
 """heading of the navigation: weight of its pages; others have 1"""

@@ -20,7 +20,7 @@ from cubic_craft.cubic_craft_addon.settings.values import Settings
 from cubic_craft.solver.styles.form_names import FORMS
 from cubic_craft.solver.styles.forms import cube, rhombic_dodecahedron
 
-from .studio import Picture, render, set_up
+from .studio import render, set_up
 
 FROM_OBJECTS = ("OBJECT", "DIRECTIONS", "FACES")
 """forms that are what the artist makes of them; their pictures have another color"""
@@ -40,7 +40,6 @@ SHAFT, HEAD, HEAD_LENGTH = 0.09, 0.24, 0.36
 """radii of an arrow, and the length of its head"""
 ARROW_SIDES = 24
 VIEW = (math.radians(64.0), 0.0, math.radians(24.0))
-PICTURE = Picture(size=96, width=2.1, view=VIEW, levels=64, largest_bytes=8_000)
 AMBER, GREY = (0.62, 0.27, 0.06), (0.36, 0.39, 0.44)
 """linear RGB, of the named forms and of those from other objects"""
 BEVEL = 0.035
@@ -110,7 +109,7 @@ def _add_arrows(edited: bmesh.types.BMesh, axes: np.ndarray) -> None:
 
 def render_forms(only: list[str] | None, samples: int) -> None:
     """Render all, or those that are named."""
-    scene = set_up(PICTURE, samples)
+    scene = set_up(96, 2.1, samples, VIEW)
     amber = surface("Amber", AMBER, roughness=1.0)
     grey = surface("Grey", GREY, roughness=1.0)
     for form, *_ in FORMS:
@@ -118,7 +117,7 @@ def render_forms(only: list[str] | None, samples: int) -> None:
             mesh = body_of(form)
             mesh.materials.append(grey if form in FROM_OBJECTS else amber)
             body = _fill_picture(scene, mesh)
-            render(scene, path_of(form), PICTURE)
+            render(scene, path_of(form), largest=8_000, levels=64)
             bpy.data.objects.remove(body)
 
 

@@ -2,7 +2,6 @@
 """Camera, light and format of the small pictures in the panel: of presets and of forms."""
 
 import math
-from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
@@ -19,33 +18,29 @@ LIGHTS = (
 )
 
 
-@dataclass(frozen=True)
-class Picture:
-    """What all small pictures of a kind share."""
-
-    size: int
-    """pixels"""
-    width: float
-    """of what is seen"""
-    largest_bytes: int
-    """of a file"""
-    levels: int = 256
-    """of each channel; fewer make the file smaller, as what is left of the noise vanishes"""
-    lift: float = 0.0
-    """of the middle of the picture above the origin, in the picture"""
-    view: tuple[float, float, float] = (math.radians(72.0), 0.0, math.radians(28.0))
-    """Euler angles of the camera"""
+VIEW = (math.radians(72.0), 0.0, math.radians(28.0))
+"""Euler angles of the camera"""
 
 
-def set_up(picture: Picture, samples: int) -> bpy.types.Scene:
-    """Give the scene a camera, lights and no background."""
+def set_up(
+    pixels: int,
+    width: float,
+    samples: int,
+    view: tuple[float, float, float] = VIEW,
+    lift: float = 0,
+) -> bpy.types.Scene:
+    """Give the scene a camera, lights and no background.
+
+    `pixels`: along a side. `width`: of what is seen. `lift`: of the middle of the picture above the
+    origin, in the picture.
+    """
     scene = bpy.context.scene
-    turn = Euler(picture.view).to_matrix()
+    turn = Euler(view).to_matrix()
     lens = bpy.data.cameras.new("Camera")
-    lens.type, lens.ortho_scale = "ORTHO", picture.width
+    lens.type, lens.ortho_scale = "ORTHO", width
     camera = bpy.data.objects.new("Camera", lens)
-    camera.rotation_euler = picture.view
-    camera.location = turn @ Vector((0.0, picture.lift, 10.0))
+    camera.rotation_euler = view
+    camera.location = turn @ Vector((0.0, lift, 10.0))
     scene.collection.objects.link(camera)
     scene.camera = camera
     for (about_up, about_right), strength, size in LIGHTS:
@@ -57,7 +52,7 @@ def set_up(picture: Picture, samples: int) -> bpy.types.Scene:
     scene.cycles.device = "CPU"
     settings = scene.render
     settings.engine = "CYCLES"
-    settings.resolution_x = settings.resolution_y = picture.size
+    settings.resolution_x = settings.resolution_y = pixels
     settings.film_transparent = True
     settings.dither_intensity = 0.0  # it would make the file twice as large
     settings.image_settings.file_format = "PNG"
@@ -66,19 +61,21 @@ def set_up(picture: Picture, samples: int) -> bpy.types.Scene:
     return scene
 
 
-def render(scene: bpy.types.Scene, path: Path, picture: Picture) -> None:
+def render(scene: bpy.types.Scene, path: Path, largest: int, levels: int = 256) -> None:
     """Write a picture of what is in the scene.
 
-    Raises SystemExit: the file is too large to be part of the extension.
+    `largest`: of the file, in bytes. `levels`: of each channel; fewer make the file smaller, as
+    what is left of the noise vanishes. Raises SystemExit: the file is too large to be part of the
+    extension.
     """
     bpy.ops.render.render(scene=scene.name)
     bpy.data.images["Render Result"].save_render(str(path), scene=scene)
-    if picture.levels < 256:
-        _round(scene, path, picture.levels)
+    if levels < 256:
+        _round(scene, path, levels)
     size = path.stat().st_size
     print(f"{path.name}: {size} bytes")
-    if size > picture.largest_bytes:
-        raise SystemExit(f"{path.name} is larger than {picture.largest_bytes} bytes")
+    if size > largest:
+        raise SystemExit(f"{path.name} is larger than {largest} bytes")
 
 
 def _round(scene: bpy.types.Scene, path: Path, levels: int) -> None:

@@ -16,8 +16,8 @@ from collections.abc import Callable
 from .output import remove_temporaries
 
 _WORDS = {signal.SIGINT: "interrupted", signal.SIGTERM: "told to end"}
-_CLEAN_LINE = b"\r\x1b[2K\x1b[?25h"
-"""for terminals: erase the progress bar, and show the cursor that it hides"""
+_CLEAN_LINE = b"\r\x1b[2K"
+"""for terminals: erase the line of the progress"""
 
 
 def end_on_signals(program: str, terminal: Callable[[], int] = lambda: 2) -> None:
@@ -47,6 +47,6 @@ def _wait_for_signal(arrivals: int, program: str, terminal: Callable[[], int]) -
     line = f"{program}: {_WORDS[signal.Signals(number)]}\n".encode()
     remove_temporaries()
     last_words = os.dup(terminal())
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # the progress bar draws itself, in a thread
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # what goes on meanwhile says no more
     os.write(last_words, _CLEAN_LINE + line if os.isatty(last_words) else line)
     os._exit(128 + number)

@@ -2,6 +2,7 @@
 """The files that are given on a command line: one by one, or by the folders that they lie in."""
 
 import os
+import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -14,6 +15,11 @@ def listing(suffixes: Sequence[str]) -> str:
     """Suffixes as readable text: ``".obj, .ply or .blend"``."""
     *others, last = suffixes
     return f"{', '.join(others)} or {last}" if others else last
+
+
+def folded(name: str) -> str:
+    """Return what is the same for all names that are one file on some system."""
+    return unicodedata.normalize("NFC", name).casefold()
 
 
 def check_source(path: Path, readable: Sequence[str]) -> None:

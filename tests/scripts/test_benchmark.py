@@ -4,7 +4,7 @@
 import pytest
 
 from scripts.benchmark import page, runs
-from scripts.benchmark.meshes import blob, keep
+from scripts.benchmark.meshes import blob
 
 NOTHING = {"machine": "A machine.", "runs": 3, "pymeshlab": [], "defaults": []}
 
@@ -56,9 +56,8 @@ def test_the_first_time_counts_and_the_median_needs_every_run():
     assert page.seconds_to(OURS["ours"], 0.9) is None
 
 
-def test_both_settings_in_turn(tmp_path):
-    path = keep("blob", tmp_path / "blob.npz", *blob(42)).path
-    results = runs.both_settings(path, 0.4, runs=2)
+def test_both_settings_in_turn():
+    results = runs.both_settings(*blob(42), 0.4, runs=2)
     assert [len(results[name]) for name in runs.SETTINGS] == [2, 2]
     paper, ours = (results[name][0] for name in runs.SETTINGS)
     assert 0.0 < ours["setup"] < ours["seconds"]

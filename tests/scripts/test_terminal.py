@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a terminal shows: names as they are, and after Ctrl-C a cursor again."""
+"""What a terminal shows: names as they are, how far a run is, and after Ctrl-C one line."""
 
 import os
+import re
 import signal
 import sys
 import time
@@ -11,9 +12,8 @@ from batch_kit import CUBE, MESHES, QUICK
 from headless import PATIENCE, SCRIPT
 
 pty = pytest.importorskip("pty", reason="there are no pseudo-terminals on this system")
-pytest.importorskip("rich", reason="without it there is no progress bar")
 
-HIDE, SHOW, CTRL_C = b"\x1b[?25l", b"\x1b[?25h", b"\x03"
+CTRL_C = b"\x03"
 
 
 def in_terminal(*arguments, cwd, interrupt_at=None):
@@ -49,16 +49,15 @@ def test_a_batch_shows_names_with_brackets_as_they_are(tmp_path):
     arguments = (".", "--output-folder", "out", *MESHES)
     code, shown = in_terminal(*arguments, cwd=tmp_path)
     assert code == 0, shown
-    assert HIDE in shown and shown.rindex(SHOW) > shown.rindex(HIDE)
     assert shown.count(b"[red]a [b].obj") >= 2, "in the line of the file, and of what is written"
+    assert re.search(rb"cubeness 0\.4: \d+%", shown)
 
 
-def test_ctrl_c_while_one_file_is_solved_leaves_a_cursor(tmp_path):
+def test_ctrl_c_while_one_file_is_solved_leaves_one_line(tmp_path):
     endless = ("--tolerance", "1e-12", "--max-iterations", "1000000")
     arguments = ("--device", "numpy", "--no-render", "--save-mesh", "a.obj", *endless)
     code, shown = in_terminal(*arguments, cwd=tmp_path, interrupt_at=b"cubeness 0.4")
     assert code == 130, shown
-    assert HIDE in shown and shown.rindex(SHOW) > shown.rindex(HIDE)
     assert shown.endswith(b"headless_render.py: interrupted\r\n")
 
 

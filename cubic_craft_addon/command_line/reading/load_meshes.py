@@ -80,30 +80,14 @@ def empty_blender() -> None:
 
 
 def load(
-    path: Path | None,
-    name: str | None,
-    *,
-    is_seen: bool = False,
-    is_all_seen: bool = True,
+    path: Path | None, name: str | None, *, is_seen: bool = False, is_all_seen: bool = True
 ) -> Loaded:
     """Load the mesh objects of a file, or the subdivided monkey.
 
-    Parameters
-    ----------
-    path : the file, or None for the monkey
-    name : only the object of this name
-    is_seen : take what is seen in place of the meshes of the file
-    is_all_seen : not only of those meshes whose modifiers hide what they are
-
-    Returns
-    -------
-    Loaded
-        At least one object, each with faces, in the order of the file.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, or holds no such object.
+    `path`: the file, or None for the monkey. `name`: only the object of this name. `is_seen`: take
+    what is seen in place of the meshes of the file. `is_all_seen`: not only of those meshes whose
+    modifiers hide what they are. Returns at least one object, each with faces, in the order of the
+    file. Raises InputError: the file cannot be read, or holds no such object.
     """
     if path is None:
         return Loaded(_choose([_monkey()], name, "Blender's monkey"))

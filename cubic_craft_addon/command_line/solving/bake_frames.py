@@ -4,7 +4,6 @@
 import contextlib
 import shutil
 from argparse import Namespace
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,30 +12,15 @@ import bpy
 from ....solver.console.output import InputError, replacing
 from ....solver.errors import CubicCraftError
 from ...animation.bake import Bake, BakeOptions
-from ...animation.exchange import export_frames
-from ...handles import Handle
+from ...animation.playback import export_frames
 from ...settings.values import Settings
-from ..process.progress import ProgressBar
+from ..process.progress import say, task
 from ..process.quiet import captured
 from ..reading.load_meshes import Loaded
 from .cubify_all import check_groups, handles_of_all, settings_of_object
 
 
-@dataclass
-class _Given:
-    """The settings of the command line, as `SettingsOverrides` gives those of the panel."""
-
-    loaded: Loaded
-    options: Namespace
-    handles: dict[str, tuple[Handle, ...]]
-
-    def settings_for(self, obj: bpy.types.Object) -> Settings:
-        """Return the Settings for an object."""
-        handles = self.handles[obj.name]
-        return settings_of_object(obj, handles, self.options, self.loaded)
-
-
-def bake_frames(loaded: Loaded, options: Namespace, bar: ProgressBar) -> dict[str, Any]:
+def bake_frames(loaded: Loaded, options: Namespace) -> dict[str, Any]:
     """Bake the frames to the file of ``--bake``, and return what there is to report.
 
     What is solved stays in a folder beside the file until that is written: a run that was ended
@@ -52,17 +36,18 @@ def bake_frames(loaded: Loaded, options: Namespace, bar: ProgressBar) -> dict[st
     scene = bpy.context.scene
     start, end = options.frames or (scene.frame_start, scene.frame_end)
     folder = path.with_name(f"{path.name}.unfinished")
-    given = _Given(loaded, options, handles_of_all(loaded, options))
+    handles = handles_of_all(loaded, options)
+
+    def settings_for(obj: bpy.types.Object) -> Settings:
+        return settings_of_object(obj, handles[obj.name], options, loaded)
+
     count = len(range(start, end + 1))
-    work = Bake(given, loaded.objects, BakeOptions(start, end, folder))
+    work = Bake(settings_for, loaded.objects, BakeOptions(start, end, folder))
     try:
-        with bar.task(f"{count} frames") as task:
+        with task(f"{count} frames") as shown:
             for step in work.steps():
-                task.describe(step.texts[-1])
-                task.advance_to(step.factor)
-            summary, problems = work.write(is_alone=True)
-            task.describe("frames")
-            task.finish(summary)
+                shown.show(step.texts[0])
+            shown.summary, problems = work.write(is_alone=True)
         found = [result.frames for result in work.results]
         if problems and found != [count] * len(loaded.objects):
             raise CubicCraftError("; ".join(problems))
@@ -73,9 +58,9 @@ def bake_frames(loaded: Loaded, options: Namespace, bar: ProgressBar) -> dict[st
         work.discard()
     with contextlib.suppress(OSError):  # something else is in it
         folder.rmdir()
-    bar.say(f"wrote {path}")
+    say(f"wrote {path}")
     for problem in problems:  # of all frames: how steady they are
-        bar.say(problem)
+        say(problem)
     return {"frames": [start, end], "objects": [vars(found) for found in work.results]}
 
 

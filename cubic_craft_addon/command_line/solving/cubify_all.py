@@ -32,7 +32,7 @@ from ...settings.values import Settings
 from ..options.formats import RENUMBER_VERTICES
 from ..options.handles_file import GivenHandle
 from ..options.region_option import region_of
-from ..process.progress import ProgressBar
+from ..process.progress import task
 from ..reading.load_meshes import Loaded
 
 
@@ -171,7 +171,7 @@ class Sculpture:
         return shape_of(self.object, self.solutions[number])
 
 
-def cubify_all(loaded: Loaded, options: Namespace, bar: ProgressBar) -> list[Sculpture]:
+def cubify_all(loaded: Loaded, options: Namespace) -> list[Sculpture]:
     """Solve each mesh once per cubeness; objects that share a mesh share the results.
 
     Raises InputError: no object has a vertex group that was named, or a handle concerns none;
@@ -190,19 +190,19 @@ def cubify_all(loaded: Loaded, options: Namespace, bar: ProgressBar) -> list[Scu
     problems = [prepare(group) for group in assemblies(members)]
     found = {}
     for problem in problems:
-        solutions = [_solve(with_cubeness(problem, value), bar) for value in options.cubeness]
+        solutions = [_solve(with_cubeness(problem, value)) for value in options.cubeness]
         for member, own in zip(problem.pieces, zip(*solutions, strict=True), strict=True):
             found[member.uid] = (member, problem, list(own))
     return [Sculpture(users, *found[users[0].session_uid]) for users in by_mesh.values()]
 
 
-def _solve(problem: MemberProblem, bar: ProgressBar) -> tuple[Solution, ...]:
+def _solve(problem: MemberProblem) -> tuple[Solution, ...]:
     settings, members = settings_of_all(problem), problem.pieces
     progress = Progress(settings.max_iterations, settings.tolerance)
     name = members[0].name if len(members) == 1 else f"{len(members)} objects together"
-    with bar.task(f"{name}, cubeness {settings.cubeness!r}") as task:
-        solutions = solve(problem, lambda state: task.advance_to(progress.update(state)))
-        task.finish(_summary(solutions[0]))
+    with task(f"{name}, cubeness {settings.cubeness!r}") as shown:
+        solutions = solve(problem, lambda state: shown.show(f"{progress.update(state):.0%}"))
+        shown.summary = _summary(solutions[0])
     return solutions
 
 

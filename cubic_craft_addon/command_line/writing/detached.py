@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 
-from ...mesh_bridge import discard_original
+from ...mesh_bridge import plain_copy
 
 
 def detached_copy(
@@ -18,8 +18,7 @@ def detached_copy(
     object; without them the mesh is what is exported.
     """
     place = obj.matrix_world.copy()
-    copy, mesh = obj.copy(), obj.data.copy()
-    copy.data = mesh
+    copy = plain_copy(obj, positions)
     copy.animation_data_clear()
     copy.constraints.clear()
     copy.parent = None
@@ -28,12 +27,6 @@ def detached_copy(
     for modifier in list(copy.modifiers):
         if not keep_modifiers or _needs_object(modifier):
             copy.modifiers.remove(modifier)
-    if mesh.shape_keys is not None:
-        copy.shape_key_clear()
-    discard_original(mesh)
-    values = np.ascontiguousarray(positions).ravel()
-    mesh.attributes["position"].data.foreach_set("vector", values)
-    mesh.update()
     return copy
 
 

@@ -4,7 +4,9 @@
 import contextlib
 import importlib.metadata
 import platform
+import tomllib
 from argparse import Namespace
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -15,13 +17,13 @@ from ....solver.console.run_words import numbers_of
 from ....solver.method import Advanced, Kept, KeptInScene, Style, StyleInScene
 from ...environment.requirements import new_engine_warnings
 from ...run.pipeline import MemberProblem, Solution
-from ..process.version import version
 from ..solving.cubify_all import Sculpture
 
 SETTINGS = {
     *names_of_options(Style, StyleInScene, Kept, Advanced, KeptInScene).values(),
     *("region", "symmetry", "with_modifiers"),
 } - {"cubeness"}  # which each run has
+_MANIFEST = Path(__file__).resolve().parents[3] / "blender_manifest.toml"
 OPTIONAL_PACKAGES = ("taichi", "quadrants", "scipy", "cholespy", "pyamg")
 
 
@@ -53,7 +55,7 @@ def about_sculptures(sculptures: list[Sculpture], cubeness: list[float]) -> dict
 
 def _versions() -> dict[str, str | None]:
     versions: dict[str, str | None] = {
-        "cubic_craft": version(),
+        "cubic_craft": tomllib.loads(_MANIFEST.read_text(encoding="utf-8"))["version"],
         "blender": bpy.app.version_string,
         "python": platform.python_version(),
         "numpy": np.__version__,

@@ -45,7 +45,8 @@ def save_meshes(
         target = target_of(path.suffix)
         kind = TARGETS[target]
         if target == "BLEND":
-            _save_blend(path, sculptures, number)
+            _write_results(sculptures, number)
+            _write(path, partial(bpy.ops.wm.save_as_mainfile, copy=True))
         elif kind.is_for_engines or kind.is_printed:
             _write_results(sculptures, number)
             users = [user for sculpture in sculptures for user in sculpture.users]
@@ -72,11 +73,6 @@ def _send(path: Path, objects: list[bpy.types.Object]) -> list[str]:
 def _write_results(sculptures: list[Sculpture], number: int) -> None:
     for sculpture in sculptures:
         pipeline.write(sculpture.object, sculpture.solutions[number], "MESH")
-
-
-def _save_blend(path: Path, sculptures: list[Sculpture], number: int) -> None:
-    _write_results(sculptures, number)
-    _write(path, partial(bpy.ops.wm.save_as_mainfile, copy=True))
 
 
 def _write(path: Path, writer: Callable[..., Any]) -> None:

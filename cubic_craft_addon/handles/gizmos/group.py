@@ -17,7 +17,7 @@ from mathutils import Matrix
 from ... import live
 from ...object_properties import object_properties
 from .drag import Drag
-from .places import Middles, live_object, place_of, places_of
+from .places import live_object, place_of, places_of
 
 _COLOR, _ACTIVE_COLOR = (1.0, 1.0, 1.0), (1.0, 0.6, 0.15)
 _AXIS_COLORS = ((0.96, 0.25, 0.33), (0.55, 0.85, 0.15), (0.2, 0.55, 1.0))
@@ -57,7 +57,6 @@ class CUBIC_CRAFT_GGT_handles(bpy.types.GizmoGroup):
 
     def setup(self, _context):
         """Make the gizmos around the active handle; dots are made when needed."""
-        self.middles = Middles()
         self.grab: _Grab | None = None
         self.value: Any = 0.0
         self.dots: list[Any] = []
@@ -86,7 +85,7 @@ class CUBIC_CRAFT_GGT_handles(bpy.types.GizmoGroup):
             return
         self.grab = None
         obj = live_object(context)
-        places = {place.number: place for place in places_of(obj, self.middles)} if obj else {}
+        places = {place.number: place for place in places_of(obj)} if obj else {}
         active = object_properties(obj).active_handle if obj else -1
         for number, dot in enumerate(self.dots):
             dot.hide = number not in places
@@ -100,7 +99,7 @@ class CUBIC_CRAFT_GGT_handles(bpy.types.GizmoGroup):
             return
         is_dot = gizmo in self.dots
         number = self.dots.index(gizmo) if is_dot else object_properties(obj).active_handle
-        place = place_of(obj, number, self.middles)
+        place = place_of(obj, number)
         if place is None:
             return
         if is_dot:
@@ -113,12 +112,9 @@ class CUBIC_CRAFT_GGT_handles(bpy.types.GizmoGroup):
 
     # -- values of the gizmos ----------------------------------------------------------------------
 
-    def _value_of(self, gizmo):
-        return self.value if self.grab is not None and gizmo == self.grab.gizmo else 0.0
-
     def _place_of_dot(self, number):
         obj = live_object(bpy.context)
-        place = place_of(obj, number, self.middles) if obj is not None else None
+        place = place_of(obj, number) if obj is not None else None
         return tuple(place.center_in_world) if place is not None else (0.0, 0.0, 0.0)
 
     def _move_dot(self, place):
@@ -195,7 +191,10 @@ class CUBIC_CRAFT_GGT_handles(bpy.types.GizmoGroup):
             self.value = value
             tell(value)
 
-        gizmo.target_set_handler("offset", get=partial(self._value_of, gizmo), set=take)
+        def give():
+            return self.value if self.grab is not None and gizmo == self.grab.gizmo else 0.0
+
+        gizmo.target_set_handler("offset", get=give, set=take)
 
     def _put_around(self, context, place):
         """Place the arrows, rings and boxes that can be dragged around the active handle."""

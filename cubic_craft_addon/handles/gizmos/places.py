@@ -53,14 +53,14 @@ def live_object(context: bpy.types.Context) -> Any:
     return obj if _member_of(session, obj) is not None else None
 
 
-def places_of(obj: bpy.types.Object, middles: Middles) -> list[Place]:
+def places_of(obj: bpy.types.Object) -> list[Place]:
     """Return the handles of a live object that can be dragged."""
     numbers = range(len(object_properties(obj).handles))
-    found = [place_of(obj, number, middles) for number in numbers]
+    found = [place_of(obj, number) for number in numbers]
     return [place for place in found if place is not None]
 
 
-def place_of(obj: bpy.types.Object, number: int, middles: Middles) -> Place | None:
+def place_of(obj: bpy.types.Object, number: int) -> Place | None:
     """Return a handle of a live object, None if it cannot be dragged.
 
     Handles that follow a target cannot: the target is moved instead.
@@ -68,12 +68,12 @@ def place_of(obj: bpy.types.Object, number: int, middles: Middles) -> Place | No
     member = _member_of(live.current(), obj)
     handles = object_properties(obj).handles
     seen = member.settings.handles if member is not None else ()
-    if number >= len(handles) or number >= len(seen):
+    if member is None or number >= len(handles) or number >= len(seen):
         return None
     handle, world = handles[number], np.array(obj.matrix_world, dtype=np.float64)
     # Live may not have noticed a change of the list yet.
     is_seen = handle.group == seen[number].group and live_target(handle) is None
-    middle = middles.of(member, number)
+    middle = middle_of(member.shape.original[member.handle_of == number])
     if not is_seen or middle is None or not is_invertible(world):
         return None
     pose = live.pose_of(obj, handle)
@@ -85,24 +85,6 @@ def middle_of(points: np.ndarray) -> np.ndarray | None:
     """Return the middle (3,) of the box around points (n,3), None if there are none."""
     points = points.astype(np.float64)
     return (points.min(axis=0) + points.max(axis=0)) / 2 if len(points) else None
-
-
-class Middles:
-    """The centers of the handles on the original shape, computed once per shape and handles."""
-
-    def __init__(self):
-        self._shape = self._handle_of = None
-        self._middles: dict[int, np.ndarray | None] = {}
-
-    def of(self, member: Any, number: int) -> np.ndarray | None:
-        """Return the center (3,) of the vertices of a handle, None if it has none."""
-        if self._shape is not member.shape or self._handle_of is not member.handle_of:
-            self._shape, self._handle_of = member.shape, member.handle_of
-            self._middles = {}
-        if number not in self._middles:
-            held = member.shape.original[member.handle_of == number]
-            self._middles[number] = middle_of(held)
-        return self._middles[number]
 
 
 def _member_of(session, obj):

@@ -36,16 +36,6 @@ def copied(obj: bpy.types.Object) -> bpy.types.Object:
 
 
 @contextmanager
-def removed_after_errors(new: bpy.types.Object) -> Iterator[None]:
-    """Remove an object that was made here, and its mesh, if the block raises."""
-    try:
-        yield
-    except BaseException:
-        remove_copy(new)
-        raise
-
-
-@contextmanager
 def passing_copy(new: bpy.types.Object, obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
     """Provide a copy of an object to read from, and remove it.
 

@@ -32,6 +32,8 @@ FIRST = "cubic_craft_first"
 RESULT_KINDS = (ORIGINAL, ROTATION, LIVE, KEY)
 """what belongs to the result that is there; FIRST outlives it"""
 
+_VALUES = {"FLOAT_VECTOR": "vector", "FLOAT_COLOR": "color_srgb"}  # which files then hold
+"""what attributes call their values, by their type; all others say "value" """
 _NORMALS = ".normals"  # as `free_normals`, on points, corners or faces; all others are on points
 _ENDINGS = r"\.position|\.normals|\.key\d+|\.written|\.mark|\.base|\.rotation|\.strokes"
 _NAMES = re.compile(rf"({ORIGINAL}|{ROTATION}|{LIVE}|{KEY}|{FIRST})({_ENDINGS})?")
@@ -69,24 +71,19 @@ def check_names(mesh: bpy.types.Mesh) -> None:
 
 
 def add_attribute(
-    mesh: bpy.types.Mesh, name: str, values: np.ndarray, domain: Any = "POINT"
+    mesh: bpy.types.Mesh, name: str, values: np.ndarray, domain: Any = "POINT", kind: Any = None
 ) -> None:
     """Add an attribute.
 
-    `mesh`: the mesh, not in Edit Mode, without an attribute of that name. `name`: name of the
-    attribute. `values`: (n,3) numpy float32 array of vectors, or (n,4) of quaternions. `domain`:
-    what they belong to.
+    `mesh`: the mesh, not in Edit Mode, without an attribute of that name. `values`: float32.
+    `domain`: what they belong to. `kind`: the type of the attribute; by default (n,3) are vectors
+    and (n,4) quaternions.
     """
+    kind = kind or ("FLOAT_VECTOR" if values.shape[1] == 3 else "QUATERNION")
     with active_kept(mesh):
-        data_type = "FLOAT_VECTOR" if values.shape[1] == 3 else "QUATERNION"
-        free = free_name()
-        mesh.attributes.new(free, data_type, domain)
-        mesh.attributes[free].name = name
-        attribute = mesh.attributes[name]
-        if isinstance(attribute, bpy.types.FloatVectorAttribute):
-            attribute.data.foreach_set("vector", np.ravel(values))
-        elif isinstance(attribute, bpy.types.QuaternionAttribute):
-            attribute.data.foreach_set("value", np.ravel(values))
+        attribute: Any = mesh.attributes.new(free_name(), kind, domain)
+        attribute.data.foreach_set(_VALUES.get(kind, "value"), np.ravel(values))
+        attribute.name = name
 
 
 def remove_attribute(mesh: bpy.types.Mesh, name: str) -> None:
@@ -149,41 +146,18 @@ def carried_attributes(
     `values`: (n,) float32 for each name. `are_colors`: whether they are gray colors instead of
     plain numbers.
     """
-    free = {name: free_name() for name in values}
+    kind = "FLOAT_COLOR" if are_colors else "FLOAT"
     try:
-        with active_kept(mesh):
-            for name, numbers in values.items():
-                _add(mesh, free[name], name, numbers, are_colors)
-            mesh.update()
+        for name, numbers in values.items():
+            gray = np.column_stack([numbers] * 3 + [np.ones_like(numbers)])
+            add_attribute(mesh, name, gray if are_colors else numbers, kind=kind)
+        mesh.update()
         yield
     finally:
         with active_kept(mesh):
             for name in values:
-                found = _find(mesh, name, are_colors) or mesh.attributes.get(free[name])
-                if found is not None:
-                    found.name = free[name]  # a vertex group may have its name
-                    mesh.attributes.remove(mesh.attributes[free[name]])
+                found = [a for a in mesh.attributes if (a.name, a.data_type) == (name, kind)]
+                if found:  # a vertex group may have its name
+                    found[0].name = free = free_name()
+                    mesh.attributes.remove(mesh.attributes[free])
             mesh.update()
-
-
-def _add(mesh: bpy.types.Mesh, free: str, name: str, numbers: np.ndarray, are_colors: bool) -> None:
-    attribute: Any = mesh.attributes.new(free, _kind(are_colors), "POINT")
-    if are_colors:
-        colors = np.ones((len(numbers), 4), np.float32)
-        colors[:, :3] = numbers[:, None]
-        attribute.data.foreach_set("color_srgb", colors.ravel())  # files then hold the numbers
-    else:
-        attribute.data.foreach_set("value", numbers.astype(np.float32))
-    attribute.name = name
-
-
-def _find(mesh: bpy.types.Mesh, name: str, are_colors: bool) -> bpy.types.Attribute | None:
-    for attribute in mesh.attributes:
-        is_ours = attribute.domain == "POINT" and attribute.data_type == _kind(are_colors)
-        if attribute.name == name and is_ours:
-            return attribute
-    return None
-
-
-def _kind(are_colors: bool) -> Any:
-    return "FLOAT_COLOR" if are_colors else "FLOAT"

@@ -8,7 +8,6 @@ Basis, or transformed it with the whole mesh. For the latter, attributes hold it
 of Basis as we wrote them.
 """
 
-import hashlib
 from collections.abc import Callable
 
 import bpy
@@ -23,9 +22,8 @@ from .affine import fit
 _NAME = "Cubic"
 _BASE = f"{KEY}.base"
 _STROKES = f"{KEY}.strokes"  # that are in the key, see `strokes`
-_SUMS = 4
 _ROUNDING = 2.0**-24  # of float32, relative
-_MARGIN = 16.0  # the sums of many roundings spread like the square root of their number
+_MARGIN = 16.0  # several edits of Basis in a row, each of a rounding
 
 
 def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
@@ -41,12 +39,9 @@ def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
     def is_written(points: np.ndarray) -> bool:
         return fingerprint_of_values(points) == noted["fingerprint"]
 
-    def is_shifted(points: np.ndarray) -> bool:
-        return same_offsets(offset_sums(points, base), noted["offsets"])
-
     # While Basis is unchanged, only the artist can have moved the key.
     is_base_moved = fingerprint_of_values(base) != noted["base"]
-    tests = (is_written, is_shifted, _transformed(mesh, base)) if is_base_moved else (is_written,)
+    tests = [is_written, *(_moved_with_basis(mesh, base) if is_base_moved else ())]
     for is_ours in tests:
         for key in keys:
             points = read_key(mesh, key)
@@ -54,6 +49,24 @@ def find_cubic_key(mesh: bpy.types.Mesh) -> bpy.types.ShapeKey | None:
             if is_ours(points) and (key.name == noted["name"] or not is_fresh):
                 return key
     return None
+
+
+def _moved_with_basis(mesh: bpy.types.Mesh, base: np.ndarray) -> list[Callable[..., bool]]:
+    """Return tests whether points are the key as Blender moves it: with edits, or transforms."""
+    written, written_base = read_attribute(mesh, KEY, 3), read_attribute(mesh, _BASE, 3)
+    if written is None or written_base is None:
+        return []
+    transform, offsets = fit(written_base, base), written.astype(np.float64) - written_base
+    size = max(np.abs(array).max(initial=0.0) for array in (written, written_base, base))
+
+    def is_shifted(points: np.ndarray) -> bool:
+        change = points.astype(np.float64) - base - offsets
+        return bool(np.abs(change).max(initial=0.0) <= _MARGIN * _ROUNDING * size)
+
+    def is_transformed(points: np.ndarray) -> bool:
+        return transform is not None and bool(transform.agrees(written, points).all())
+
+    return [is_shifted, is_transformed]
 
 
 def key_strokes(mesh: bpy.types.Mesh) -> np.ndarray | None:
@@ -98,19 +111,10 @@ def write_cubic_key(
         "name": key.name,
         "fingerprint": fingerprint_of_values(positions),
         "base": fingerprint_of_values(base),
-        "offsets": offset_sums(positions, base),
+        "offsets": [],  # version 0.1.0 takes a note without them for somebody else's
         "made_basis": made_basis,
     }
     write_note(mesh, note | {"key": part})
-
-
-def _transformed(mesh: bpy.types.Mesh, base: np.ndarray) -> Callable[[np.ndarray], bool]:
-    """Return a function that tests whether points are the key, transformed as Basis was."""
-    written, written_base = read_attribute(mesh, KEY, 3), read_attribute(mesh, _BASE, 3)
-    if written is None or written_base is None:
-        return lambda points: False
-    transform = fit(written_base, base)
-    return lambda points: transform is not None and bool(transform.agrees(written, points).all())
 
 
 def remove_cubic_key(mesh: bpy.types.Mesh, key: bpy.types.ShapeKey | None) -> None:
@@ -157,35 +161,3 @@ def remove_keys(mesh: bpy.types.Mesh, keys: list[bpy.types.ShapeKey]) -> None:
         for obj, index in active.items():
             if index and index >= place:
                 obj.active_shape_key_index = index - 1
-
-
-def offset_sums(points: np.ndarray, base: np.ndarray) -> list[float]:
-    """Sum up the offsets of a shape key from its base, each time with other signs.
-
-    Editing Basis shifts the other keys by the same, rounded to float32: their offsets stay, but not
-    to the bit, so a hash cannot tell. These sums stay nearly the same, and change when any single
-    point is edited.
-
-    `points`, `base`: (n,3) float32. Returns the number of vertices, the largest coordinate, and 4
-    sums in the unit of the coordinates.
-    """
-    offsets = np.ravel(points).astype(np.float64) - np.ravel(base)
-    largest = max(np.abs(points).max(initial=0.0), np.abs(base).max(initial=0.0))
-    sums = [float(np.where(signs, offsets, -offsets).sum()) for signs in _signs(offsets.size)]
-    return [len(points), float(largest), *sums]
-
-
-def same_offsets(one: list[float], other: list[float]) -> bool:
-    """Return whether two results of `offset_sums` differ by no more than rounding."""
-    if len(one) != len(other) or one[0] != other[0]:
-        return False
-    roundings = np.sqrt(max(3 * one[0], 1)) * _ROUNDING * max(one[1], other[1])
-    return bool(np.abs(np.subtract(one[2:], other[2:])).max(initial=0.0) <= _MARGIN * roundings)
-
-
-def _signs(size: int) -> np.ndarray:
-    """Return signs that are the same in all versions of Python and NumPy, as files rely on them."""
-    row = -(-size // 8)
-    noise = hashlib.shake_128(b"cubic craft").digest(_SUMS * row)
-    bits = np.unpackbits(np.frombuffer(noise, np.uint8)).reshape(_SUMS, 8 * row)
-    return bits[:, :size].astype(bool)

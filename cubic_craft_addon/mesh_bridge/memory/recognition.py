@@ -51,11 +51,6 @@ def runs(marks: np.ndarray, rows: np.ndarray) -> tuple[list[np.ndarray], np.ndar
     return np.split(whole, starts), rows[~is_whole]
 
 
-def is_complete(marks: np.ndarray, run: np.ndarray) -> bool:
-    """Return whether a run contains all vertices of its result."""
-    return np.float32(len(run)) == marks[run[0], 2]
-
-
 @dataclass(frozen=True)
 class Part:
     """Vertices that were transformed alike."""
@@ -139,7 +134,7 @@ def _recognize_group(
         own = fit(written[run], present[run])
         if own is not None and own.is_unique:
             is_edited |= own.is_flattened
-        elif is_complete(marks, run) or np.isin(marks[run, 1], single).all():
+        elif np.float32(len(run)) == marks[run[0], 2] or np.isin(marks[run, 1], single).all():
             own = consensus(written[run], present[run])
             is_edited = True
         else:

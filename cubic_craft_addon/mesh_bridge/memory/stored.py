@@ -43,18 +43,11 @@ def carry_back(
     Edits of the artist are kept: the keys are carried with their offsets. If the result equals the
     stored points up to rounding, the stored points are used.
 
-    Parameters
-    ----------
-    present : the shapes, with shape keys
-    recognized : the state of the vertices
-    base : (n,3) numpy float32 array, the original base, transformed
-    quaternions : (n,4) numpy float32 array or None, the rotations that the result was written with
-    known : dict from names of keys to the stored points that they get
-    stored : dict from names of keys, including the reference, to their stored points
-
-    Returns
-    -------
-    dict from names to (n,3) float32 arrays
+    `present`: the shapes, with shape keys. `recognized`: the state of the vertices. `base`: (n,3)
+    float32, the original base, transformed. `quaternions`: (n,4) float32 or None, the rotations
+    that the result was written with. `known`: by names of keys, the stored points that they get.
+    `stored`: by names of keys, including the reference, their stored points. Returns (n,3) float32
+    by names.
     """
     assert present.reference is not None
     keys = {present.reference: base}

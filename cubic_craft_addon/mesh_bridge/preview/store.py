@@ -89,13 +89,6 @@ def write_live_part(mesh: bpy.types.Mesh, part: dict[str, Any]) -> None:
     write_note(mesh, read_note(mesh) | {"live": part})
 
 
-def drop_live_part(mesh: bpy.types.Mesh) -> None:
-    """Remove the "live" part of the note; the others do not change."""
-    note = read_note(mesh)
-    note.pop("live", None)
-    write_note(mesh, note)
-
-
 def remove_live_attributes(mesh: bpy.types.Mesh) -> None:
     """Remove the attributes of a preview; also works in Edit Mode."""
     for name in our_attributes(mesh, (LIVE,)):
@@ -205,14 +198,17 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
 
     Returns whether there was a preview to end. Linked meshes are not changed.
     """
-    if is_linked(mesh) or not (has_preview(mesh) or _may_be_undone(mesh)):
+    may_be_undone = _ended_in_edit_mode and our_attributes(mesh, (LIVE,))
+    if is_linked(mesh) or not (has_preview(mesh) or may_be_undone):
         return False
     edited = EditedMesh(mesh) if mesh.is_editmode else None
     try:
         present = edited.read_shapes() if edited else read_shapes(mesh)
     except CubicCraftError:  # a script has left shape keys that do not fit: not our preview
         present = None
-    part = read_note(mesh).get("live") or _part_of_undone(present)
+    part = read_note(mesh).get("live")
+    if part is None and present is not None:  # without its note where an undo has brought it back
+        part = _ended_in_edit_mode.get(fingerprint_of_values(present.base))
     if not part:
         return False
     if edited and part["fingerprint"]:
@@ -236,7 +232,9 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
         else:
             write_shapes(mesh, before)
     # First the note: without it, the rest of a preview does no harm.
-    drop_live_part(mesh)
+    note = read_note(mesh)
+    note.pop("live", None)
+    write_note(mesh, note)
     remove_live_attributes(mesh)
     return True
 
@@ -244,15 +242,3 @@ def end_preview(mesh: bpy.types.Mesh) -> bool:
 def end_all_previews() -> list[str]:
     """End the preview on every mesh of the file; return the names of those that had one."""
     return [mesh.name for mesh in list(bpy.data.meshes) if end_preview(mesh)]
-
-
-def _may_be_undone(mesh: bpy.types.Mesh) -> bool:
-    """Return whether an undo may have brought back a preview without its note."""
-    return bool(_ended_in_edit_mode) and bool(our_attributes(mesh, (LIVE,)))
-
-
-def _part_of_undone(present: Shapes | None) -> dict[str, Any] | None:
-    """Find the part of the note by the current shape; None if we have not shown it."""
-    if present is None:
-        return None
-    return _ended_in_edit_mode.get(fingerprint_of_values(present.base))

@@ -3,13 +3,14 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 import bpy
 import numpy as np
 
 from ....solver.errors import CubicCraftError
-from ..access.any_mode import copied, flush, passing_copy, removed_after_errors
+from ..access.any_mode import copied, flush, passing_copy, remove_copy
 from ..access.arrays import mark_moved, write_position
 from ..access.attributes import check_names, our_attributes, remove_attribute
 from ..access.checks import check_local, mesh_of
@@ -17,6 +18,7 @@ from ..access.note import NOTE, check_note, read_note
 from ..memory.original import Start
 from .restore import discard_original
 from .results import write_mesh
+from .rollback import after_errors
 
 KINDS = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 """types of objects with a visible mesh"""
@@ -49,7 +51,7 @@ def write_new_object(
     check_names(mesh)
     flush(obj)
     new = copied(obj)
-    with removed_after_errors(new):
+    with after_errors(partial(remove_copy, new)):
         write_mesh(mesh_of(new), positions, rotations, run, start)
         mesh_of(new).name = f"{mesh.name} Cubic"
         new.name = f"{obj.name} Cubic"
@@ -110,7 +112,7 @@ def plain_copy(obj: bpy.types.Object, positions: np.ndarray) -> bpy.types.Object
     CubicCraftError: a mesh that cannot be written; no copy is left then.
     """
     new = copied(obj)
-    with removed_after_errors(new):
+    with after_errors(partial(remove_copy, new)):
         _strip(new, mesh_of(new))
         move_vertices(new, positions)
     return new
@@ -180,7 +182,7 @@ def write_seen(
     `prepare`, `run`: as for `write_new_object`. Raises CubicCraftError: as `write_mesh`. After any
     exception, there is no new object.
     """
-    with removed_after_errors(new):
+    with after_errors(partial(remove_copy, new)):
         write_mesh(mesh_of(new), positions, rotations, run)
         show_beside(new, source, prepare)
     return new

@@ -15,7 +15,7 @@ from ....solver.errors import CubicCraftError
 from ..access.arrays import loose_vertices, mark_moved, read_key
 from ..access.attributes import check_names
 from ..access.checks import check_relative_keys, check_writable, mesh_of
-from ..access.note import fingerprint_of_values, is_run, read_note
+from ..access.note import fingerprint_of_values, is_run, note_run, read_note
 from ..access.rounded_for_storage import (
     carry_finite,
     matrices_for_storage,
@@ -26,7 +26,6 @@ from ..access.rounded_for_storage import (
 from ..access.shapes import Shapes, read_shapes, write_shapes
 from ..memory.cubic_key import find_cubic_key, remove_cubic_key, write_cubic_key
 from ..memory.first_original import first_kept
-from ..memory.last_run import note_run
 from ..memory.original import (
     RESULT,
     Start,
@@ -53,20 +52,12 @@ def write_mesh(
 ) -> None:
     """Write a result to the mesh: the base moves and the shape keys follow.
 
-    Parameters
-    ----------
-    mesh : a mesh in Object Mode
-    positions : (n,3) numpy array, object space; ignored for vertices in no face
-    rotations : (n,3,3) numpy array, the local rotation of each vertex
-    run : the note of the run (see `note`)
-    start : what the result was made from if the mesh was edited by hand since the last one
-    finish : called once the shape is written; if it raises, the mesh is unchanged
-
-    Raises
-    ------
-    CubicCraftError
-        Wrong number of vertices, values that are not finite, a mesh that cannot be written, or
-        a name conflict with our note or attributes. The mesh is then unchanged.
+    `mesh`: a mesh in Object Mode. `positions`: (n,3), object space; ignored for vertices in no
+    face. `rotations`: (n,3,3), the local rotation of each vertex. `run`: the note of the run (see
+    `note`). `start`: what the result was made from if the mesh was edited by hand since the last
+    one. `finish`: called once the shape is written; if it raises, the mesh is unchanged. Raises
+    CubicCraftError: wrong number of vertices, values that are not finite, a mesh that cannot be
+    written, or a name conflict with our note or attributes. The mesh is then unchanged.
     """
     check_writable(mesh, mesh.name)
     check_names(mesh)

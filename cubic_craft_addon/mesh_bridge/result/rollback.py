@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write all or nothing: restore a mesh if writing to it fails half-way."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 
 import bpy
 import numpy as np
@@ -16,19 +16,23 @@ from ..memory.cubic_key import remove_keys
 
 
 @contextmanager
-def all_or_nothing(mesh: bpy.types.Mesh) -> Iterator[None]:
+def after_errors(put_back: Callable[[], object]) -> Iterator[None]:
+    """Call a function if the block raises."""
+    try:
+        yield
+    except BaseException:
+        put_back()
+        raise
+
+
+def all_or_nothing(mesh: bpy.types.Mesh) -> AbstractContextManager[None]:
     """Undo what the block did to the mesh if it raises.
 
     It covers the positions, the points of shape keys, free normals, added shape keys, sharp edges
     that follow the shape, our attributes and the note. It cannot restore removed shape keys: remove
     those last.
     """
-    state = _State(mesh)
-    try:
-        yield
-    except BaseException:
-        state.put_back()
-        raise
+    return after_errors(_State(mesh).put_back)
 
 
 @contextmanager
@@ -48,18 +52,15 @@ def carry_result(mesh: bpy.types.Mesh, other: bpy.types.Mesh) -> bool:
     """
     state = _State(mesh)
     there = other.shape_keys.key_blocks.keys() if other.shape_keys is not None else ()
-    if len(mesh.vertices) != len(other.vertices) or not _has_faces_of(mesh, other):
+    is_like = np.array_equal(corner_vertices(mesh), corner_vertices(other))
+    counts = [(len(each.vertices), len(each.polygons)) for each in (mesh, other)]
+    if not is_like or counts[0] != counts[1]:
         return False
     if not state.shapes.keys.keys() <= set(there):
         return False
     state.mesh = other
     state.put_back()
     return True
-
-
-def _has_faces_of(mesh, other):
-    is_like = np.array_equal(corner_vertices(mesh), corner_vertices(other))
-    return is_like and len(mesh.polygons) == len(other.polygons)
 
 
 class _State:

@@ -7,9 +7,9 @@ from typing import Any
 import bpy
 
 from ..access.checks import is_linked, mesh_of
+from ..access.note import last_run
 from ..access.sharp_edges import are_wanted, follow_shape, let_edges_follow
 from ..memory.cubic_key import find_cubic_key
-from ..memory.last_run import last_run
 
 
 def shade_edges(obj: bpy.types.Object, is_on: bool) -> None:

@@ -38,7 +38,9 @@ def bakes(part):
     def make(folder, *sources):
         module = part("animation.bake")
         options = module.BakeOptions(1, FRAMES, folder)
-        return module.Bake(part("settings.overrides").SettingsOverrides({}), sources, options)
+        return module.Bake(
+            part("settings.overrides").SettingsOverrides({}).settings_for, sources, options
+        )
 
     return make
 

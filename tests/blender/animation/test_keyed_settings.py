@@ -128,7 +128,7 @@ def last_frame(part, objects, name, *keys):
     scene = bpy.context.scene
     scene.frame_set(1)
     made = [animated.Animated(one, part("mesh_bridge").make_seen(one)) for one in objects]
-    group = animated.AnimatedGroup(made, part("animation.sources").OfSources(objects))
+    group = animated.AnimatedGroup(made, part("animation.sources").settings_of_sources(objects))
     for frame in range(1, LAST + 1):
         scene.frame_set(frame)
         frames = drained(group.solve())

@@ -19,7 +19,7 @@ def cache(part):
 
 
 def is_empty(cache):
-    return all(each.is_empty for each in cache._all)
+    return not any(each.uids for each in cache._all)
 
 
 @pytest.fixture

@@ -123,4 +123,4 @@ def test_nothing_is_found_of_what_is_gone(marks):
     uid = obj.session_uid
     bpy.data.objects.remove(obj)
     marks.middles.find(uid)
-    assert marks.middles.is_empty
+    assert not marks.middles.uids

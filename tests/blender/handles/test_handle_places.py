@@ -39,7 +39,7 @@ def test_each_handle_is_grabbed_in_the_middle_of_its_part(places, live, begin):
     rest = position_of(obj.data)
     obj.cubic_craft.handles[1].pose = BENT
     tick_to_rest(begin(obj))
-    one, other = places.places_of(obj, places.Middles())
+    one, other = places.places_of(obj)
     assert (one.number, other.number) == (0, 1)
     world = np.array(obj.matrix_world)
     np.testing.assert_allclose(
@@ -57,7 +57,7 @@ def test_its_own_axes_turn_with_it(places, live, begin, scale):
     obj, _, _ = add_pinned(**THERE, scale=scale)
     obj.cubic_craft.handles[1].pose = BENT
     tick_to_rest(begin(obj))
-    _, place = places.places_of(obj, places.Middles())
+    _, place = places.places_of(obj)
     axes = place.own_axes
     np.testing.assert_allclose(axes.T @ axes, np.eye(3), atol=1e-6)
     assert np.linalg.det(axes) > 0
@@ -70,35 +70,33 @@ def test_what_follows_an_object_is_moved_by_that(places, live, begin):
     pin(obj, LEFT)
     empty = follow(obj, RIGHT)
     session = tick_to_rest(begin(obj))
-    middles = places.Middles()
-    assert [place.number for place in places.places_of(obj, middles)] == [0]
+    assert [place.number for place in places.places_of(obj)] == [0]
     select(empty)
     assert places.live_object(bpy.context) == obj
     obj.cubic_craft.handles[1].mode = "PINNED"
     tick_to_rest(session)
-    assert [place.number for place in places.places_of(obj, middles)] == [0, 1]
+    assert [place.number for place in places.places_of(obj)] == [0, 1]
 
 
 def test_the_list_may_change_while_live_runs(places, live, begin):
     obj, _, right = add_pinned()
     rest = position_of(obj.data)
     session = tick_to_rest(begin(obj))
-    middles = places.Middles()
-    before = [place.center for place in places.places_of(obj, middles)]
+    before = [place.center for place in places.places_of(obj)]
     obj.cubic_craft.handles.move(1, 0)
-    assert places.places_of(obj, middles) == [], "Live has not seen it yet"
+    assert places.places_of(obj) == [], "Live has not seen it yet"
     tick_to_rest(session)
-    after = [place.center for place in places.places_of(obj, middles)]
+    after = [place.center for place in places.places_of(obj)]
     assert np.array_equal(after, before[::-1])
     obj.vertex_groups[RIGHT].remove(right[1:].tolist())
     obj.update_tag()
     session.on_mesh_update()
     tick_to_rest(session)
-    first, _ = places.places_of(obj, middles)
+    first, _ = places.places_of(obj)
     np.testing.assert_allclose(first.center, rest[right[0]], atol=1e-6)
     live.live_properties().use_handles = False
     tick_to_rest(session)
-    assert places.places_of(obj, middles) == []
+    assert places.places_of(obj) == []
 
 
 def test_only_a_live_mesh_has_them(places, live, begin):
@@ -118,4 +116,4 @@ def test_only_a_live_mesh_has_them(places, live, begin):
     bpy.context.view_layer.objects.active = obj
     obj.scale.x = 0.0
     tick_to_rest(session)
-    assert places.places_of(obj, places.Middles()) == [], "no motion of the world could be mapped"
+    assert places.places_of(obj) == [], "no motion of the world could be mapped"

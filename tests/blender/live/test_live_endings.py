@@ -381,7 +381,7 @@ def test_another_add_on_that_resets_taichi_does_no_harm(live, begin, one_phase):
 
 
 def test_the_cursor_says_that_blender_computes_where_there_is_a_window(part):
-    waiting = part("live.elsewhere").waiting
+    waiting = part("screen.redraw").waiting
     said = []
     window = SimpleNamespace(cursor_modal_set=said.append, cursor_modal_restore=said.clear)
     for each in (None, window):

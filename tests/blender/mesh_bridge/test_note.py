@@ -9,7 +9,7 @@ from rich_mesh import cubic_like, position_of
 from snapshot import differences, snapshot_object, unchanged
 
 NOTE = "cubic_craft_note"
-KEY = {"name": "Wide", "fingerprint": "0", "base": "0", "offsets": [], "made_basis": False}
+KEY = {"name": "Wide", "fingerprint": "0", "base": "0", "made_basis": False}
 
 
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY"])
@@ -34,7 +34,7 @@ def test_property_of_the_artist_called_cubic_craft(bridge, cubify, monkey, resul
         json.dumps({"version": 0, "key": KEY}),
         json.dumps({"version": 1, "key": KEY, "mine": 1}),
         json.dumps({"version": 1, "key": KEY | {"base": 1}}),
-        json.dumps({"version": 1, "key": KEY | {"offsets": ["a"]}}),
+        json.dumps({"version": 1, "key": KEY | {"made_basis": "a"}}),
         json.dumps({"version": 1, "mesh": {"fingerprint": "0"}}),
         json.dumps({"version": 1, "mesh": {"fingerprint": "0", "keys": [1]}}),
     ],

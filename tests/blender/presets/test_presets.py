@@ -147,7 +147,7 @@ bpy.context.object.location = (1, 2, 3)
     )
     (path.parent / "broken.py").write_text("cubeness = (")
     (path.parent / "empty.py").write_text("")
-    files._forget()
+    files._presets_of.cache_clear()
     (preset,) = [preset for preset in files.presets() if not preset.is_included]
     assert preset.values == {"cubeness": 0.7}
     monkey.cubic_craft.preset = "Mine"
@@ -226,7 +226,7 @@ def test_pictures(files, rooms, monkey):
     for path, picture in shown.items():
         assert tuple(picture.image_size) == (160, 160)
         assert Path(path).stat().st_size < 30_000
-    pictures.free()
+    pictures.forget()
     assert pictures._collection is None
 
 

@@ -26,13 +26,8 @@ _ALWAYS = (
     ("load_post", "_forget"),
 )
 _IN_LIVE = (
-    ("undo_post", "_on_undo"),
-    ("redo_post", "_on_undo"),
-    ("load_pre", "_on_load"),
-    ("save_pre", "_on_save"),
-    ("save_post", "_on_saved"),
-    ("save_post_fail", "_on_saved"),
-    ("frame_change_post", "_on_frame"),
+    *((name, "tell") for name in ("undo_post", "redo_post", "load_pre", "save_pre")),
+    *((name, "tell") for name in ("save_post", "save_post_fail", "frame_change_post")),
     ("depsgraph_update_post", "_on_update"),
 )
 _IN_CUBIFY = (("undo_pre", "_on_undo"), ("redo_pre", "_on_undo"), ("load_pre", "_on_load"))
