@@ -134,8 +134,9 @@ test-gui: $(ZIP) ## The built extension in real Blender windows; BLENDER=path fo
 	tests/gui/run.sh $(GUI_OPTIONS) $(ZIP)
 
 test-walk: $(ZIP) ## Random walks through real Blender windows; SEEDS="1 2" ACTIONS=500
-	for seed in $(or $(SEEDS),1 2 3 4 5); do TESTS=test_random_walk WALK_SEED=$$seed \
-		WALK_ACTIONS=$(or $(ACTIONS),500) tests/gui/run.sh $(ZIP) build/walks/$$seed || exit 1; done
+	for seed in $(or $(SEEDS),1 2 3 4 5); do for suite in $(if $(BLENDER),blender,trixie sid); do \
+		TESTS=test_random_walk WALK_SEED=$$seed WALK_ACTIONS=$(or $(ACTIONS),500) \
+		tests/gui/run.sh $(ZIP) build/walks/$$seed $$suite || exit 1; done; done
 
 test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that has nothing else
 	$(PY) scripts/package build $(ZIP) --platforms linux-x64
