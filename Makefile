@@ -9,10 +9,10 @@ PYTHON ?= $(or $(call find_python,3.13),$(PYTHON311))
 PYTHON311 ?= $(call find_python,3.11)
 VENV := .venv
 PY := $(VENV)/bin/python
-PIP := -m pip install --quiet --disable-pip-version-check
-# To compile what nobody imports takes most of the time. Not where tests read what is said beside
-# Taichi: of what is compiled later, Python 3.13 tells the warnings.
-QUICK_PIP := $(PIP) --no-compile
+# To compile what nobody imports takes most of the time.
+PIP := -m pip install --quiet --disable-pip-version-check --no-compile
+# But tests read what is said beside Taichi, and Python 3.13 warns of a line of it when it is compiled.
+compile_taichi = $(1)/bin/python -m compileall -q $(1)/lib/python3*/site-packages/taichi
 # Whole files go to as many processes as there are cores, in the order given: the longest are named
 # first. Not more than four, as each Blender takes its memory. A process that crashes ends the run: with
 # another one in its place, --dist loadfile may wait for ever.
@@ -41,6 +41,7 @@ $(VENV)/.done: requirements/*.txt
 	$(PYTHON) -m venv --clear $(VENV)
 	$(PY) $(PIP) -r requirements/dev.txt -r requirements/lint.txt -r requirements/package.txt \
 		-r requirements/blender-newest.txt
+	$(call compile_taichi,$(VENV))
 	@touch $@
 
 render: setup ## Picture of a mesh beside its cubic versions; MESH=file, ARGS=options
@@ -88,7 +89,7 @@ test-oldest: $(VENV)-oldest/.done $(ZIP) ## What depends on the versions of Blen
 $(VENV)-oldest/.done: requirements/*.txt
 	@test -n "$(PYTHON311)" || { echo "no Python 3.11 found; set it: make PYTHON311=path"; exit 1; }
 	$(PYTHON311) -m venv --clear $(VENV)-oldest
-	$(VENV)-oldest/bin/python $(QUICK_PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
+	$(VENV)-oldest/bin/python $(PIP) -r requirements/dev.txt -r requirements/blender-oldest.txt
 	@touch $@
 
 WITH_KERNELS := $(addprefix tests/solver/,backends coarse_to_fine test_reference_meshes.py test_stylize.py)
@@ -100,7 +101,7 @@ test-quadrants: $(VENV)-quadrants/.done ## The solver with Quadrants in place of
 $(VENV)-quadrants/.done: requirements/*.txt
 	@test -n "$(PYTHON)" || { echo "no Python 3.13 or 3.11 found; set it: make PYTHON=path"; exit 1; }
 	$(PYTHON) -m venv --clear $(VENV)-quadrants
-	$(VENV)-quadrants/bin/python $(QUICK_PIP) -r requirements/dev.txt \
+	$(VENV)-quadrants/bin/python $(PIP) -r requirements/dev.txt \
 		"$$(sed -n 's/^\(quadrants==[^;]*\);.*/\1/p' requirements/solver.txt)"
 	$(VENV)-quadrants/bin/python -m pip uninstall --quiet --yes taichi
 	@touch $@
@@ -133,8 +134,9 @@ test-gui: $(ZIP) ## The built extension in real Blender windows; BLENDER=path fo
 	tests/gui/run.sh $(GUI_OPTIONS) $(ZIP)
 
 test-walk: $(ZIP) ## Random walks through real Blender windows; SEEDS="1 2" ACTIONS=500
-	for seed in $(or $(SEEDS),1 2 3 4 5); do TESTS=test_random_walk WALK_SEED=$$seed \
-		WALK_ACTIONS=$(or $(ACTIONS),500) tests/gui/run.sh $(ZIP) build/walks/$$seed || exit 1; done
+	for seed in $(or $(SEEDS),1 2 3 4 5); do for suite in $(if $(BLENDER),blender,trixie sid); do \
+		TESTS=test_random_walk WALK_SEED=$$seed WALK_ACTIONS=$(or $(ACTIONS),500) \
+		tests/gui/run.sh $(ZIP) build/walks/$$seed $$suite || exit 1; done; done
 
 test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that has nothing else
 	$(PY) scripts/package build $(ZIP) --platforms linux-x64
@@ -143,7 +145,7 @@ test-package: setup $(BARE:=/.done) $(ZIP) ## The Linux packages, in a bpy that 
 
 $(VENV)-bare-%/.done: requirements/blender-%.txt
 	$(if $(filter oldest,$*),$(PYTHON311),$(PYTHON)) -m venv --clear $(VENV)-bare-$*
-	$(VENV)-bare-$*/bin/python $(QUICK_PIP) -r $<
+	$(VENV)-bare-$*/bin/python $(PIP) -r $<
 	@touch $@
 
 lint: setup ## Style and formatting
@@ -180,13 +182,14 @@ wheel: $(VENV)-wheel/.done ## The solver as a wheel for pip, without Blender, in
 
 $(VENV)-wheel/.done: requirements/wheel.txt
 	$(PYTHON) -m venv --clear $(VENV)-wheel
-	$(VENV)-wheel/bin/python $(QUICK_PIP) -r $<
+	$(VENV)-wheel/bin/python $(PIP) -r $<
 	@touch $@
 
 # In a new environment: its name, its Python, its requirements, the extra of the wheel, the tests.
 define test_library
 $(2) -m venv --clear $(VENV)-library-$(1)
-$(VENV)-library-$(1)/bin/python $(if $(4),$(PIP),$(QUICK_PIP)) -r requirements/library-$(3).txt "$$(echo dist/cubic_craft-*.whl)$(4)"
+$(VENV)-library-$(1)/bin/python $(PIP) -r requirements/library-$(3).txt "$$(echo dist/cubic_craft-*.whl)$(4)"
+$(if $(4),$(call compile_taichi,$(VENV)-library-$(1)))
 $(VENV)-library-$(1)/bin/python -m pip check
 $(VENV)-library-$(1)/bin/python $(PYTEST) $(5)
 endef
@@ -223,7 +226,7 @@ docs: $(VENV)-docs/.done ## The documentation as a site, build/site/index.html; 
 
 $(VENV)-docs/.done: requirements/docs.txt
 	$(PYTHON) -m venv --clear $(VENV)-docs
-	$(VENV)-docs/bin/python $(QUICK_PIP) -r requirements/docs.txt
+	$(VENV)-docs/bin/python $(PIP) -r requirements/docs.txt
 	@touch $@
 
 .PHONY: figures

@@ -10,7 +10,7 @@ import pytest
 from installed import archive, empty_file, extension, pytest_sessionfinish, pytest_unconfigure
 
 import bpy  # isort: skip  # after `installed`, which gives it an empty user folder
-from scene import select  # isort: skip
+from scene import QUICK, change_settings, select  # isort: skip
 
 __all__ = (
     "archive",
@@ -83,12 +83,11 @@ def one_phase(live, monkeypatch):
 def begin(live):
     """Return a function that begins Live on objects, the first with these settings.
 
-    As `scene.cubify`, it does without a finer copy unless that is asked for.
+    As `scene.cubify`, it is quick unless the settings say otherwise.
     """
 
     def start(*objects, **settings):
-        for name, value in {"refine": "OFF", **settings}.items():
-            setattr(objects[0].cubic_craft, name, value)
+        change_settings(objects[0], **{**QUICK, **settings})
         select(*objects)
         return live.begin(bpy.context, list(objects))
 

@@ -52,9 +52,9 @@ def bake_normal_map():
 
 # What was done before, what fails, and what is there once it does not.
 SCENARIOS = {
+    "mesh after a key": ("SHAPE_KEY", run_cubify("MESH")),
     "mesh": (None, run_cubify("MESH", **FINER)),
     "mesh with Taichi": (None, run_cubify("MESH", device="CPU", **FINER)),
-    "mesh after a key": ("SHAPE_KEY", run_cubify("MESH")),
     "key after what was edited": ("edited", run_cubify("SHAPE_KEY")),
     "new object after a mesh": ("MESH", run_cubify("NEW_OBJECT")),
     "edited since": ("edited", run_cubify("MESH")),

@@ -17,7 +17,8 @@ import bpy
 import guidrive as gui
 
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
-QUICK = ("--max-iterations", "3", "--no-render", "--save-mesh")
+QUICK = ("--max-iterations", "3")
+SMALL = ("--samples", "1", "--resolution", "64", "32")
 SECONDS = 300
 ENDLESS = ("--tolerance", "1e-12", "--max-iterations", "1000000", "--device", "numpy")
 
@@ -64,20 +65,18 @@ def check_help(folder):
 
 def check_one_file(folder):
     """Let the engine solve the monkey, and render a picture."""
-    ended(start(folder, *QUICK, "m.obj", "--report", "m.json"), 0)
+    ended(start(folder, *QUICK, *SMALL, "--output", "m.png", "--report", "m.json"), 0)
     expected = os.environ.get("EXPECT_DEVICE")
     report = json.loads((folder / "m.json").read_text())
     assert expected in (None, report["device"]), report["device"]
-    ended(start(folder, "a.obj", "--output", "a.png", "--samples", "1"), 0)
-    assert (folder / "a.png").stat().st_size
+    assert (folder / "m.png").stat().st_size
 
 
 def check_a_batch(folder):
-    """Do what can be done, which the next batch keeps."""
-    files = ("a.obj", "b.obj", "broken.ply", "--output-folder", "out", *QUICK, ".obj")
-    for kept in (0, 2):
-        _, errors = ended(start(folder, *files), 3)
-        assert "1 of 3 files failed" in errors and errors.count(": kept") == kept
+    """Do what can be done."""
+    outputs = ("--output-folder", "out", "--no-render", "--save-mesh", ".obj")
+    _, errors = ended(start(folder, "a.obj", "b.obj", "broken.ply", *outputs, *QUICK), 3)
+    assert "1 of 3 files failed" in errors
     assert sorted(path.name for path in folder.glob("out/*.obj")) == ["a.obj", "b.obj"]
 
 

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Suite: trixie
-"""All ways to confirm and to cancel Live by hand, and what looks like one but is not."""
+"""All ways to confirm Live by hand, and what looks like a way to end it but is none.
+
+test_live.py clicks on its cross, and test_live_around.py cancels it by Esc.
+"""
 
 import bpy
 import guidrive as gui
@@ -37,22 +40,6 @@ def confirms(original):
         bpy.ops.cubic_craft.restore()
         bpy.ops.ed.undo_push(message="Restore")
     assert scene.positions() == original
-
-
-def cancels(original):
-    """Esc, and the X beside the button."""
-    for way in ("ESC", "X"):
-        yield from scene.start_live()
-        if way == "ESC":
-            yield from scene.press("ESC")
-        else:
-            button = yield from scene.button("cubic_craft.live")
-            cross = button.right - 10, button.at()[1]
-            yield from gui.move_mouse(cross)
-            assert gui.button_under_mouse().startswith("bpy.ops.cubic_craft.live_cancel(")
-            yield from gui.click(cross)
-        yield from scene.wait_over()
-        assert scene.positions() == original, way
 
 
 def does_not_cancel(original):
@@ -123,7 +110,7 @@ def test():
     scene.add_monkey()
     original = scene.positions()
     yield from gui.open_sidebar("Cubic Craft")
-    for moment in (confirms, cancels, does_not_cancel):
+    for moment in (confirms, does_not_cancel):
         gui.log(moment.__name__)
         yield from moment(original)
 

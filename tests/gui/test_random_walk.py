@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Suite: sid
 """A random walk: anything, at any moment. WALK_SEED and WALK_ACTIONS choose another one.
 
 What a walk meets depends on the speed of the machine, too. So this one is short, and only keeps the

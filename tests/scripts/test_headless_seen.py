@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is seen is taken with ``--with-modifiers``: modifiers applied, texts as meshes."""
 
+import json
+
 import numpy as np
 import pytest
 from headless import headless_ok, headless_shared, make_blend, run_to_blend
@@ -36,12 +38,8 @@ def source(tmp_path_factory):
     return make_blend(MAKE, tmp_path_factory.mktemp("seen") / "seen.blend")
 
 
-def run(source, folder, *options):
-    return run_to_blend(source, folder, *FAST, *options)
-
-
 def test_what_is_seen_is_taken_in_place_of_the_meshes(source, tmp_path):
-    report, found = run(source, tmp_path, "--with-modifiers")
+    report, found = run_to_blend(source, tmp_path, *FAST, "--with-modifiers")
     assert report["settings"]["with_modifiers"] is True
     counts = {entry["name"]: entry["vertices"] for entry in report["objects"]}
     assert set(counts) == {"Cube", "Suzanne", "Text"}
@@ -52,10 +50,16 @@ def test_what_is_seen_is_taken_in_place_of_the_meshes(source, tmp_path):
     assert sizes.min() > 0.8 * sizes.max(), "the ball has not become cubic"
 
 
-def test_without_it_the_meshes_below_are_taken(source, tmp_path):
-    report, _ = run(source, tmp_path)
+def test_without_it_the_meshes_below_are_taken_and_what_is_not_rendered_is_left_out(
+    source, tmp_path
+):
+    """As what a Boolean modifier cuts with, which the report of the test above lacks, too."""
+    done = headless_ok(source, *FAST, "--no-render", "--report", "report.json", cwd=tmp_path)
+    report = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
     counts = {entry["name"]: entry["vertices"] for entry in report["objects"]}
     assert counts == {"Cube": 8, "Suzanne": 507}
+    for name in ("Cutter", "In Tools"):
+        assert f'"{name}" is left out: it is hidden, is not rendered or has no faces' in done.stderr
 
 
 FASTEST = ("--device", "numpy", "--max-iterations", 3, "--keep-apart", "off", "--refine", "off")
@@ -103,10 +107,3 @@ def test_no_picture_of_the_original_is_passed_off_as_a_result(tmp_path):
     assert refused.returncode == 2 and not (tmp_path / "p.png").exists()
     line = refused.stderr.splitlines()[-1]
     assert '"Suzanne": one of its modifiers' in line and "--with-modifiers" in line
-
-
-def test_what_is_not_rendered_is_left_out(source, tmp_path):
-    """As what a Boolean modifier cuts with; the reports of both tests above do not have it."""
-    done = headless_ok(source, *FAST, "--no-render", "--report", "report.json", cwd=tmp_path)
-    for name in ("Cutter", "In Tools"):
-        assert f'"{name}" is left out: it is hidden, is not rendered or has no faces' in done.stderr

@@ -7,7 +7,7 @@ import bpy
 import pytest
 from live_steps import add_monkey, bits
 from mathutils import Matrix
-from scene import cubify, select
+from scene import change_settings, cubify, select
 
 
 @pytest.fixture
@@ -63,7 +63,7 @@ def test_slices_give_the_bits_of_the_script(package, start):
     one, other = add_monkey("One"), add_monkey("Other", location=(5, 0, 0))
     other.data.transform(Matrix.Diagonal((1, 1, 0.7, 1)))
     for obj in (one, other):
-        obj.cubic_craft.together = "PARTS"
+        change_settings(obj, together="PARTS", keep_apart=True)
     before = [bits(one), bits(other)]
     watched = start(one, other)
     said = solve(watched)

@@ -78,9 +78,18 @@ def select(*objects):
     bpy.context.view_layer.objects.active = objects[0]
 
 
+QUICK = {"refine": "OFF", "keep_apart": False}
+"""a finer copy takes several times as long, and Keep Apart twice as long"""
+
+
+def change_settings(obj, **settings):
+    for name, value in settings.items():
+        setattr(obj.cubic_craft, name, value)
+
+
 def cubify(**options):
-    """Cubify in few iterations and not on a finer copy, which takes several times as long."""
-    return bpy.ops.cubic_craft.cubify(**{"max_iterations": 30, "refine": "OFF", **options})
+    """Cubify in few iterations, and quickly unless the options say otherwise."""
+    return bpy.ops.cubic_craft.cubify(**{"max_iterations": 30, **QUICK, **options})
 
 
 def given(group, matrix=None, threshold=0.5):

@@ -15,16 +15,16 @@ from live_steps import (
     tick_to_sight,
 )
 from rich_mesh import add_rich_monkey
-from scene import add_triangles, cubify, select
+from scene import QUICK, add_triangles, change_settings, cubify, select
 from snapshot import differences, snapshot_mesh, snapshot_object
 
 
 @pytest.mark.parametrize("result", ["MESH", "SHAPE_KEY", "NEW_OBJECT"])
 def test_confirming_leaves_the_bits_of_cubify(live, begin, result):
     twin, obj = add_monkey("Twin"), add_monkey()
-    refine = "AUTO" if result == "MESH" else "OFF"
-    twin.cubic_craft.refine = refine
-    session = tick_to_rest(begin(obj, result=result, cubeness=0.7, refine=refine))
+    settings = {"refine": "AUTO", "keep_apart": True} if result == "MESH" else QUICK
+    change_settings(twin, **settings)
+    session = tick_to_rest(begin(obj, result=result, cubeness=0.7, **settings))
     confirm(live, session)
     check_gone(live)
     assert bpy.context.object == obj
@@ -40,7 +40,8 @@ def test_confirming_leaves_the_bits_of_cubify(live, begin, result):
 def test_a_change_that_had_to_wait_is_not_forgotten(live, begin, one_phase):
     """Runs are left alone until they are seen; confirming at once must not write such a run."""
     twin, obj = add_monkey("Twin"), add_monkey()
-    session = tick_to_rest(begin(obj, cubeness=0.2))
+    change_settings(twin, keep_apart=True)
+    session = tick_to_rest(begin(obj, cubeness=0.2, keep_apart=True))
     live.live_properties().cubeness = 0.6
     session.tick(bpy.context)
     session._last_restart = float("inf")  # the run stays young until it has ended

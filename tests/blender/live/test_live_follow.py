@@ -67,7 +67,7 @@ def test_the_original_is_not_touched_and_the_follower_shows_the_result(live, fol
 @pytest.mark.parametrize("mode", ["SCULPT", "OBJECT", "WEIGHT_PAINT", "EDIT"])
 def test_a_stroke_is_followed_and_ends_as_cubify_of_the_original(live, follow, mode):
     obj = add_monkey()
-    session = tick_to_rest(follow(obj))
+    session = tick_to_rest(follow(obj, keep_apart=True))
     shown = bits(follower_of(obj))
     bpy.ops.object.mode_set(mode=mode)
     tick_to_rest(session)

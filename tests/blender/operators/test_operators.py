@@ -3,6 +3,7 @@
 
 import dataclasses
 import importlib
+from functools import partial
 
 import bpy
 import numpy as np
@@ -353,19 +354,20 @@ def test_each_option_of_the_proxy_reaches_the_solver(
 
     monkeypatch.setattr(pipeline, "prepare", watched)
     obj = add_monkey()
+    run = partial(bpy.ops.cubic_craft.cubify, max_iterations=3, refine="OFF")
     if way == "Live":
-        session = begin(obj)
+        session = begin(obj, keep_apart=True)
         for other in (getattr(obj.cubic_craft, name), value):
             setattr(live.live_properties(), name, other)
             for _ in range(10):
                 session.tick(bpy.context)
         session.on(live.Event.CANCEL)
     elif way == "operator":
-        assert cubify(**{name: value}) == {"FINISHED"}
+        assert run(**{name: value}) == {"FINISHED"}
         assert getattr(obj.cubic_craft, name) == value, "the object keeps what it was told"
     else:
         setattr(obj.cubic_craft, name, value)
-        assert cubify() == {"FINISHED"}
+        assert run() == {"FINISHED"}
     solver = importlib.import_module(f"{extension.__name__}.solver")
     expected = dataclasses.asdict(solver.ProxyOptions(refine=False)) | {name: value}
     assert dataclasses.asdict(seen[-1]) == pytest.approx(expected)

@@ -8,7 +8,7 @@ import pytest
 from live_steps import bits, confirm, tick_to_rest, wake_to_rest
 from mathutils import Matrix
 from rich_mesh import position_of
-from scene import add_monkey, bmesh_of, cubify, given, reports_of, select
+from scene import add_monkey, bmesh_of, change_settings, cubify, given, reports_of, select
 from scipy.spatial import KDTree
 
 
@@ -153,7 +153,7 @@ def test_halves_of_a_mirror_meet_in_its_plane():
 
 def test_live_and_cubify_give_the_same(live, begin):
     twin, obj = under_subdivision(add_monkey("Twin")), under_subdivision(add_monkey())
-    twin.cubic_craft.refine = "AUTO"
+    change_settings(twin, refine="AUTO", keep_apart=False)
     session = tick_to_rest(begin(obj, refine="AUTO"))
     assert share(obj) > 0.5, "the preview shows it"
     confirm(live, session)

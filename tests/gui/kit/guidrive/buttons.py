@@ -15,6 +15,7 @@ SCAN_STEP = 12  # pixels; a row of buttons is 20 high
 _ASIDE = 3  # pixels; beyond the edge of a button, where the mouse has left it
 _TRIES = 5
 _CUT_OFF = 8  # pixels; what is lower is cut off by the edge of the region, and is scrolled to
+_NEAR = 160  # pixels; what the panel gains or loses above a button moves it by less
 
 _passed = {}  # text of a button: region, a point on it, how far the region was scrolled then
 
@@ -59,9 +60,10 @@ def find_button(target, region_type="UI", area_type="VIEW_3D"):
     """Find a button by operator id ("my_extension.run") or end of its data path ("obj.strength").
 
     Of an operator that has several buttons, an argument tells which: "my_extension.run(mode='A'".
-    The mouse looks where it was found before, then where it was passed in search of others, then it
-    walks over the region, which is scrolled if need be. Returns a Button; raises LookupError with
-    the buttons that were met. Closed panels and pop-ups are not searched.
+    The mouse looks where it was found before, then where it was passed in search of others, then
+    above and below the former, then it walks over the region, which is scrolled if need be.
+    Returns a Button; raises LookupError with the buttons that were met. Closed panels and pop-ups
+    are not searched.
     """
     met = {}
     where = region(region_type, area_type)
@@ -80,6 +82,8 @@ def find_button(target, region_type="UI", area_type="VIEW_3D"):
         if button:
             return found(button)
     button = yield from _look_where_passed(matches, region_type, area_type)
+    for place in places.known(key)[:2]:
+        button = button or (yield from _look_near(place, matches, region_type, area_type))
     for thorough in (False, True):
         if not button:
             button = yield from _scan(matches, met, region_type, area_type, thorough)
@@ -148,6 +152,22 @@ def _look_at(place, matches, region_type, area_type):
         if (yield from _hover(x, y, region_type, area_type)) == texts[0]:
             return None
     return Button(texts[0], *edges)
+
+
+def _look_near(place, matches, region_type, area_type):
+    """Return the Button if it is somewhat above or below a place where it was before, or None."""
+    left, bottom, right, top, height = place
+    yield from _scroll_to(height, region_type, area_type)
+    where, x = region(region_type, area_type), (left + right) // 2
+    for distance in range(SCAN_STEP, _NEAR, SCAN_STEP):
+        for y in ((bottom + top) // 2 + distance, (bottom + top) // 2 - distance):
+            if not where.y < y < where.y + where.height:
+                continue
+            text = yield from _hover(x, y, region_type, area_type)
+            if matches(text):
+                button = yield from _measure(text, x, y, region_type, area_type)
+                return button if button.top - button.bottom >= _CUT_OFF else None
+    return None
 
 
 def _look_where_passed(matches, region_type, area_type):
