@@ -6,6 +6,7 @@ locks, there are none.
 """
 
 import contextlib
+import os
 import sys
 from pathlib import Path
 from typing import BinaryIO
@@ -30,22 +31,32 @@ class Lock:
 
     def __init__(self, path: Path):
         self._place = path.with_name(f".{path.name}.lock")
-        self._file = self._place.open("ab")
-        if not _is_locked(self._file):
-            self._file.close()
-            raise BusyError(
-                f'"{path.name}" is being written by another program; wait until it is done'
-            )
+        self._file: BinaryIO | None = None
+        while self._file is None:
+            file = self._place.open("ab")
+            try:
+                if not _is_locked(file):
+                    raise BusyError(
+                        f'"{path.name}" is being written by another program; wait until it is done'
+                    )
+                # The one who had it may have removed the file after we opened it.
+                with contextlib.suppress(FileNotFoundError):
+                    if os.path.samestat(os.fstat(file.fileno()), self._place.stat()):
+                        self._file = file
+            finally:
+                if self._file is None:
+                    file.close()
 
     def release(self) -> None:
         """Let others work there."""
-        if self._file.closed:
+        if self._file is None:
             return
         if sys.platform == "win32":  # which removes no file that is open
             self._file.close()
         with contextlib.suppress(OSError):
             self._place.unlink()
         self._file.close()
+        self._file = None
 
 
 def _is_locked(file: BinaryIO) -> bool:
