@@ -12,11 +12,10 @@ from functools import cache
 from pathlib import Path
 
 from mkdocs.structure.files import File  # pyright: ignore[reportMissingImports]
+from search_order import FOLDER
 
 ROOT = Path(__file__).resolve().parents[2]
 LIST = "api.md"
-FOLDER = "api/"
-"""of the site, with the pages"""
 _NAME = re.compile(r"^::: ([\w.]+)\.(\w+)\n(?! )", re.MULTILINE)  # constants have options below
 _IMPORT = re.compile(
     r'(<span class="kn">from</span>\s*(?:<span class="w"> </span>)?<span class="nn">)solver\b'

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A hook of MkDocs: the search shows pages for artists first, and references last."""
 
-from pages_of_names import FOLDER
-
+FOLDER = "api/"
+"""of the site, with the pages of names"""
 BOOSTS = {"For artists": 4.0, "Development": 0.5}
 """heading of the navigation: weight of its pages; others have 1"""
 PAGES = {"index.md": 4.0, "api.md": 0.05, "changelog.md": 0.05}
