@@ -33,6 +33,8 @@ RIMS = 0.1, 0.15
 UPRIGHT = 0.01, 0.02
 """slope to the direction of the side: a plane with less than the first has none, and one with more
 than the second keeps it"""
+SQUARE, MOST = np.cos(np.radians(2.0)), 0.9
+"""of the angle to its direction, at rest, and of the area of a side that was so: it is upright"""
 FEWEST = 4
 """triangles of a side; fewer are frayed"""
 CLEAR = 0.02
@@ -81,7 +83,9 @@ def flattening(U, F, graph, side, directions, heights, is_tilted, thickness, rim
         np.bincount(region, graph.areas * values, count) / np.maximum(area, _LEAST)
         for values in (is_tilted, thickness, rim[F].min(axis=1))
     )
-    normals, offsets, distance = _planes(centers, graph.areas, region, facing)
+    is_square = np.einsum("mj,mj->m", graph.normals, facing[region]) > SQUARE
+    square = np.bincount(region, graph.areas * is_square, count) > MOST * area
+    normals, offsets, distance = _planes(centers, graph.areas, region, facing, square)
     size = np.sqrt(np.maximum(area, _LEAST))
     size += is_rim * (diagonals(U, F, region, count) - size)
     shares = np.where(has_one, _nearness(distance, size, tilted, thick, is_rim), 0.0)
@@ -152,11 +156,11 @@ def _nearness(distance, size, tilted, thick, is_rim):
     return smoothstep(share / near, *NEAR[::-1])
 
 
-def _planes(P, areas, region, facing):
+def _planes(P, areas, region, facing, is_upright=False):
     """Return unit normals (r,3) and offsets (r,) of the planes of regions, and distances (r,).
 
     These are from the places, the root of the mean square. `P`: (k,3), the places of triangles with
-    `areas` (k,) in a `region` (k,). `facing`: (r,3).
+    `areas` (k,) in a `region` (k,). `facing`: (r,3). `is_upright`: (r,) bool, those without slope.
     """
     count = len(facing)
     total = np.maximum(np.bincount(region, areas, count), _LEAST)
@@ -174,7 +178,7 @@ def _planes(P, areas, region, facing):
     xx, yy = xx + least, yy + least
     a, b = np.stack([yy * xz - xy * yz, xx * yz - xy * xz]) / (xx * yy - xy * xy)
     left = z - a[region] * x - b[region] * y
-    keeping = smoothstep(np.hypot(a, b), *UPRIGHT)
+    keeping = np.where(is_upright, 0.0, smoothstep(np.hypot(a, b), *UPRIGHT))
     a, b = a * keeping, b * keeping
     normals = facing - a[:, None] * axes[0] - b[:, None] * axes[1]
     normals /= np.maximum(np.linalg.norm(normals, axis=1), _LEAST)[:, None]

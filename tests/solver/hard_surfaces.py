@@ -57,3 +57,12 @@ def wall():
     heights[1::2, 1::2] = 0.34
     ticks = np.cumsum([0, *[0.16, 0.08] * 4, 0.16])
     return extruded_grid(heights, ticks, ticks)
+
+
+def gate():
+    """Return two posts with a beam, and three edges of an arch between them."""
+    heights = np.full((5, 2), 0.2)
+    heights[1:4, 0] = 0.0
+    V, quads = extruded_grid(heights, [0, 0.2, 0.35, 0.65, 0.8, 1.0], [0, 0.85, 1.0])
+    V[np.isin(V[:, 0], (0.2, 0.8)) & (V[:, 1] == 0.85), 1] = 0.7
+    return V, quads
