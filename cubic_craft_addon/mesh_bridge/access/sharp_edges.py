@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sharp edges that follow the shape: smooth shading would make the edges of a crisp one look round.
 
-Only on a mesh that is smooth all over. Whenever a shape is written, edges that turn by more than
+Only on a mesh that is mostly smooth. Whenever a shape is written, edges that turn by more than
 `ANGLE` are marked; *Restore* takes the marks back.
 """
 
@@ -22,6 +22,7 @@ _NORMALS = "custom_normal"
 _ASIDE = "cubic_craft_normals"  # in that place, sharp edges would not be seen
 _NEAR = math.cos(math.radians(20.0))  # exporters weigh faces in other ways, and files round
 _MOST = 0.99  # of the corners that have to be near
+_FLAT = 0.5  # of the faces: importers of glTF set those flat whose corners happen to be so
 _OF_NODES = ("Smooth by Angle", "Auto Smooth")  # node groups included with Blender
 
 
@@ -62,7 +63,7 @@ def has_following_edges(mesh: bpy.types.Mesh) -> bool:
 def let_edges_follow(mesh: bpy.types.Mesh, is_on: bool) -> None:
     """Let the sharp edges of a mesh follow its shape from its next one on, or remove those.
 
-    A mesh that is not smooth all over stays as it is.
+    A mesh that is mostly flat, or has sharp edges of its own, stays as it is.
     """
     if not is_on:
         forget_edges(mesh)
@@ -74,7 +75,10 @@ def let_edges_follow(mesh: bpy.types.Mesh, is_on: bool) -> None:
 def follow_shape(mesh: bpy.types.Mesh) -> None:
     """Mark the sharp edges of the shape as it is, if they follow it."""
     if has_following_edges(mesh):
+        are_smooth = read_values(mesh.polygons, "use_smooth", bool)
         mesh.set_sharp_from_angle(angle=ANGLE)
+        if not are_smooth.all():  # which Blender has made all faces
+            mesh.polygons.foreach_set("use_smooth", are_smooth)
 
 
 def leave_edges(mesh: bpy.types.Mesh) -> None:
@@ -102,8 +106,10 @@ def forget_edges(mesh: bpy.types.Mesh) -> None:
 
 
 def is_smooth(mesh: bpy.types.Mesh) -> bool:
-    """Return whether a mesh is smooth all over, without sharp edges other than those of ours."""
-    if _has(mesh, "sharp_face") or (_has(mesh, _MARKS) and not has_following_edges(mesh)):
+    """Return whether a mesh is mostly smooth, without sharp edges other than those of ours."""
+    if _share(mesh, "sharp_face") > _FLAT:
+        return False
+    if _share(mesh, _MARKS) and not has_following_edges(mesh):
         return False
     return not mesh.has_custom_normals or _are_those_of_blender(mesh)
 
@@ -140,8 +146,9 @@ def _rename(mesh, name, to):
         found.name = to
 
 
-def _has(mesh: bpy.types.Mesh, name: str) -> bool:
+def _share(mesh: bpy.types.Mesh, name: str) -> float:
+    """Return how many of the flags of that name are set, from 0 to 1."""
     flags = mesh.attributes.get(name)
-    if not isinstance(flags, bpy.types.BoolAttribute):
-        return False
-    return bool(read_values(flags.data, "value", bool).any())
+    if not isinstance(flags, bpy.types.BoolAttribute) or not len(flags.data):
+        return 0.0
+    return float(read_values(flags.data, "value", bool).mean())

@@ -129,8 +129,9 @@ def _own_edge(obj):
     obj.data.edges[7].use_edge_sharp = True
 
 
-def _flat_face(obj):
-    obj.data.polygons[7].use_smooth = False
+def _flat_faces(obj, share=0.6):
+    for polygon in obj.data.polygons[: int(share * len(obj.data.polygons))]:
+        polygon.use_smooth = False
 
 
 def _own_normals(obj):
@@ -138,7 +139,7 @@ def _own_normals(obj):
     mesh.normals_split_custom_set([(0.0, 0.0, 1.0)] * len(mesh.loops))
 
 
-@pytest.mark.parametrize("own", [_subdivision, _by_angle, _own_edge, _flat_face, _own_normals])
+@pytest.mark.parametrize("own", [_subdivision, _by_angle, _own_edge, _flat_faces, _own_normals])
 def test_what_looks_as_the_artist_wants_is_not_touched(monkey, own):
     own(monkey)
     before = sharp(monkey.data)
@@ -146,6 +147,14 @@ def test_what_looks_as_the_artist_wants_is_not_touched(monkey, own):
     assert "cubic_craft_sharp_edges" not in monkey.data
     now = sharp(monkey.data)
     assert (before is None) == (now is None) and (now is None or np.array_equal(now, before))
+
+
+def test_a_few_flat_faces_stay_flat_beside_sharp_edges(monkey):
+    """As importers of glTF make them where the normals of the corners are those of the face."""
+    _flat_faces(monkey, share=0.02)
+    cubify(cubeness=0.4)
+    assert np.array_equal(sharp(monkey.data), expected(monkey.data)) and sharp(monkey.data).any()
+    assert not monkey.data.polygons[0].use_smooth and monkey.data.polygons[-1].use_smooth
 
 
 def test_a_shape_key_has_none(monkey):
