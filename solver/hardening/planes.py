@@ -128,7 +128,8 @@ def flat_at_rest(V, F, graph, side):
 
 def _of_rims(U, at, rim, facing):
     """Return normals (k,3), shares (k,) and distances (k,) of the planes of rims, see `RIMS`."""
-    normals, offsets, distance = _planes(U[at], np.ones(len(at)), rim, facing)
+    leans = np.zeros(len(facing), bool)
+    normals, offsets, distance = _planes(U[at], np.ones(len(at)), rim, facing, leans)
     away, size = from_middles(U[at], rim)
     radius = np.sqrt(np.bincount(rim, (away**2).sum(axis=1)) / size)
     shares = smoothstep(distance / np.maximum(radius, _LEAST), *RIMS[::-1])
@@ -156,7 +157,7 @@ def _nearness(distance, size, tilted, thick, is_rim):
     return smoothstep(share / near, *NEAR[::-1])
 
 
-def _planes(P, areas, region, facing, is_upright=False):
+def _planes(P, areas, region, facing, is_upright):
     """Return unit normals (r,3) and offsets (r,) of the planes of regions, and distances (r,).
 
     These are from the places, the root of the mean square. `P`: (k,3), the places of triangles with

@@ -67,11 +67,8 @@ class Shape:
         if len(x) < 3 or not abs(x.min() + x.max()) <= _NEARLY * np.ptp(x):
             return False  # by this, most meshes are known not to be
         axes = [number == axis for number in range(3)]
-        has_image = self.whole((), axes, is_smooth=False).own_partners[0].partner >= 0
-        if not has_image.all():  # of those at one place, as along seams, one is enough
-            place = np.unique(self.original, axis=0, return_inverse=True)[1].ravel()
-            has_image = (np.bincount(place, has_image) > 0.0)[place]
-        return has_image.mean() >= LEAST_MATCHING
+        matching = self.whole((), axes, is_smooth=False).matching or 0
+        return matching >= LEAST_MATCHING * len(x)
 
     @cached_property
     def components(self) -> int:

@@ -175,28 +175,8 @@ class Whole:
             else:
                 off = (self._original[inside] - positions[inside].astype(np.float64)) @ normal
                 positions[inside] += off[:, None] * normal
-        before = positions.copy()
         for mirror in self.own_partners:
             mirror.without(is_held).impose(positions)
-        alone, other = self._without_partner
-        goes_along = (before[alone] == before[other]).all(axis=1) & ~is_held[alone]
-        positions[alone[goes_along]] = positions[other[goes_along]]
-
-    @cached_property
-    def _without_partner(self):
-        """Vertices with fewer partners than another at their place (k,), and these (k,).
-
-        As along seams that cut only one half.
-        """
-        count = sum(
-            (one.partner >= 0 for one in self.own_partners), np.zeros(len(self._original), int)
-        )
-        order = np.lexsort((-count, *self._original.T))  # of those at one place, the most first
-        is_first = np.ones(len(order), dtype=bool)
-        is_first[1:] = (np.diff(self._original[order], axis=0) != 0.0).any(axis=1)
-        most = order[np.flatnonzero(is_first)[np.cumsum(is_first) - 1]]
-        is_alone = count[order] < count[most]
-        return order[is_alone], most[is_alone]
 
     def settle_rotations(self, rotations: FloatArray, is_held: BoolArray) -> None:
         """Make rotations (n,3,3) of the vertices of the mesh symmetric, in place."""

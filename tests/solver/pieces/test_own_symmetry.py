@@ -43,27 +43,6 @@ def test_the_halves_are_mirror_images_bit_for_bit():
     assert np.abs(U - V).max() > 0.05
 
 
-def test_a_seam_that_cuts_one_half_does_not_hide_it():
-    """As those of UV maps; with nobody to speak for them, the doubles tore the halves apart."""
-    V, F = ears()
-    behind = V[F, 1].mean(axis=1) > 0.0
-    seam = np.intersect1d(F[behind], F[~behind])
-    seam = seam[V[seam, 0] > 0.3]
-    double = np.arange(len(V))
-    double[seam] = len(V) + np.arange(len(seam))
-    F = np.where(behind[:, None], double[F], F)
-    V = np.concatenate([V, V[seam]]).astype(np.float32)
-    piece = with_own_symmetry(piece_of(V, F, style=Style(0.4)))
-    assert np.abs([one.normal for one in piece.whole.mirrored]).tolist() == [[1.0, 0.0, 0.0]]
-    ((U, _),) = (problem := join_pieces([piece])).split(*_result(problem))
-    np.testing.assert_array_equal(U[double[seam]], U[seam])
-    (mirror,) = piece.whole.own_partners
-    has_one = mirror.partner >= 0
-    assert not has_one.all()
-    images = U[mirror.partner[has_one]] * np.float32([-1, 1, 1])
-    np.testing.assert_array_equal(U[has_one], images)
-
-
 def _result(problem):
     result = run(problem.stylization(), 30)
     return result.positions, result.rotations
