@@ -53,7 +53,7 @@ class Output:
     sharp_edges: bool = setting(True, in_animation=False, keeps_result=True)(
         "Sharp Edges",
         "Mark edges of crisp shapes that turn by more than 30 degrees as sharp, as smooth shading"
-        " makes them look round. Only on meshes that are smooth all over; Restore takes it back",
+        " makes them look round. Only on meshes that are mostly smooth; Restore takes it back",
     )
     # Who sculpts on a result and then moves a slider wants to keep both.
     start: Start = setting(  # noqa: RUF009

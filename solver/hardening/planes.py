@@ -128,8 +128,8 @@ def flat_at_rest(V, F, graph, side):
 
 def _of_rims(U, at, rim, facing):
     """Return normals (k,3), shares (k,) and distances (k,) of the planes of rims, see `RIMS`."""
-    leans = np.zeros(len(facing), bool)
-    normals, offsets, distance = _planes(U[at], np.ones(len(at)), rim, facing, leans)
+    is_upright = np.zeros(len(facing), bool)
+    normals, offsets, distance = _planes(U[at], np.ones(len(at)), rim, facing, is_upright)
     away, size = from_middles(U[at], rim)
     radius = np.sqrt(np.bincount(rim, (away**2).sum(axis=1)) / size)
     shares = smoothstep(distance / np.maximum(radius, _LEAST), *RIMS[::-1])

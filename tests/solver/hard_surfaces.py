@@ -52,7 +52,7 @@ def chest():
 
 
 def wall():
-    """Return a wall with twelve small sills that stand out of it."""
+    """Return a wall with sixteen small sills that stand out of it."""
     heights = np.full((9, 9), 0.3)
     heights[1::2, 1::2] = 0.34
     ticks = np.cumsum([0, *[0.16, 0.08] * 4, 0.16])

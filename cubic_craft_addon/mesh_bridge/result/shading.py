@@ -15,7 +15,7 @@ from ..memory.cubic_key import find_cubic_key
 def shade_edges(obj: bpy.types.Object, is_on: bool) -> None:
     """Show the straight edges of a crisp result on an object as what they are, or no longer.
 
-    Nothing changes without a result, in Edit Mode, and on a mesh that is not smooth all over.
+    Nothing changes without a result, in Edit Mode, and on a mesh that is mostly flat.
     """
     run, mesh = last_run(obj), obj.data
     if run is None or not isinstance(mesh, bpy.types.Mesh) or mesh.is_editmode or is_linked(mesh):
